@@ -1,0 +1,121 @@
+#include "app/load.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "config/nearest.h"
+
+namespace firn::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+stages::Image read_image_size(const std::string& text, config::Diagnostics& diagnostics) {
+  stages::Image image;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &image.width, &image.height, &rest) != 2 || image.width < 16 || image.height < 16 ||
+      image.width > 16384 || image.height > 16384) {
+    diagnostics.error({"--image " + text, 0, 0}, "expected WIDTHxHEIGHT in pixels, 16 to 16384 each, such as 1280x720");
+    return {};
+  }
+  return image;
+}
+
+// A scene that any pipeline can be checked against when its own is wrong, so that the errors of both are told at once.
+scene::Scene nominal_scene() {
+  scene::Scene scene;
+  scene.domain = scene::Domain{};
+  scene.materials.emplace_back();
+  scene::Snow snow;
+  snow.what = scene::Sphere{scene::Vector3d(0.5, 0.5, 0.5), 0.1};
+  scene.snow.push_back(snow);
+  scene.field = scene::Field{};
+  return scene;
+}
+
+}  // namespace
+
+void add_inputs(CLI::App& verb, Inputs& inputs) {
+  verb.add_option("PIPELINE", inputs.pipeline, "Pipeline file (YAML), or the name of one that comes with Firn")->required();
+  verb.add_option("--scene", inputs.scene, "Scene file instead of the pipeline's own");
+  verb.add_option("--set", inputs.set, "K=V: a pipeline parameter (k=4), a stage's (mpm.grid_to_particles.flip=0.9), or part of the scene "
+                                       "(scene.gravity=[0,-1.62,0]); V is YAML")
+      ->allow_extra_args(false);
+  verb.add_option("--disable", inputs.disable, "Leave a stage out")->allow_extra_args(false);
+  verb.add_option("--image", inputs.image, "Size of pictures, WIDTHxHEIGHT")->capture_default_str();
+}
+
+std::vector<fs::path> data_folders() {
+  std::vector<fs::path> folders;
+  if (const char* data = std::getenv("FIRN_DATA")) folders.emplace_back(data);
+  std::error_code error;
+  if (const fs::path program = fs::read_symlink("/proc/self/exe", error); !error)
+    folders.push_back(program.parent_path().parent_path() / "share" / "firn");
+  folders.emplace_back(FIRN_SOURCE_DIR);
+  std::erase_if(folders, [](const fs::path& folder) { return !fs::is_directory(folder / "shaders"); });
+  return folders;
+}
+
+std::vector<fs::path> shader_folders() {
+  std::vector<fs::path> folders;
+  for (const fs::path& folder : data_folders()) folders.push_back(folder / "shaders");
+  return folders;
+}
+
+std::string find_input(const std::string& name, const std::string& folder) {
+  if (fs::exists(name)) return name;
+  for (const fs::path& data : data_folders())
+    for (const fs::path& candidate : {data / name, data / folder / name, data / folder / (name + ".yaml")})
+      if (fs::is_regular_file(candidate)) return candidate.string();
+  return name;
+}
+
+void print(const config::Diagnostics& diagnostics) {
+  for (const config::Diagnostic& diagnostic : diagnostics.all()) fmt::print(stderr, "{}\n", config::to_string(diagnostic));
+}
+
+Loaded load(const Inputs& inputs, const std::string& output) {
+  Loaded loaded;
+  config::Diagnostics& diagnostics = loaded.diagnostics;
+  graph::Edits edits;
+  for (const std::string& text : inputs.set) edits.set.push_back(config::parse_override(text, diagnostics));
+  std::erase_if(edits.set, [](const config::Override& change) { return change.path.empty(); });
+  edits.disable = inputs.disable;
+  const stages::Image image = read_image_size(inputs.image, diagnostics);
+
+  loaded.pipeline_file = find_input(inputs.pipeline, "pipelines");
+  loaded.pipeline = graph::load_pipeline(loaded.pipeline_file, edits, diagnostics);
+  loaded.scene_file = inputs.scene.empty() ? loaded.pipeline.scene : find_input(inputs.scene, "pipelines/scenes");
+
+  std::shared_ptr<const stages::Problem> problem;
+  if (!loaded.scene_file.empty()) {
+    if (inputs.scene.empty() && !fs::exists(loaded.scene_file)) {
+      diagnostics.error(loaded.pipeline.scene_place, fmt::format("no such scene file: '{}'", loaded.scene_file));
+    } else {
+      config::Diagnostics of_scene;
+      loaded.scene_node = config::load(loaded.scene_file, of_scene);
+      if (!of_scene.has_errors()) {
+        for (const config::Override& change : edits.set)
+          if (change.path.front() == "scene")
+            config::apply_override(loaded.scene_node, {change.path.begin() + 1, change.path.end()}, change.value, change.place, of_scene);
+        scene::Scene scene = scene::read_scene(loaded.scene_node, of_scene);
+        if (!of_scene.has_errors()) problem = stages::make_problem(std::move(scene), image, output);
+      }
+      diagnostics.append(of_scene);
+    }
+  } else if (!loaded.pipeline.file.empty() && !diagnostics.has_errors()) {
+    diagnostics.error({loaded.pipeline_file, 0, 0}, "no scene: name one in the pipeline ('scene: scenes/snowball.yaml') or by --scene FILE");
+  }
+  const bool nominal = problem == nullptr;
+  if (nominal) problem = stages::make_problem(nominal_scene(), image, "");
+  loaded.registry = stages::all_stages(problem);
+  loaded.plan = graph::compile(loaded.pipeline, loaded.registry, stages::environment(*problem), diagnostics);
+  loaded.problem = problem;
+  config::throw_if_errors(diagnostics);
+  return loaded;
+}
+
+}  // namespace firn::app

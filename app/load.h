@@ -1,0 +1,48 @@
+#pragma once
+
+// From the command line to a plan: what run, check and others share.
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "graph/compile.h"
+#include "graph/pipeline.h"
+#include "stages/problem.h"
+#include "stages/register.h"
+
+namespace firn::app {
+
+struct Inputs {
+  std::string pipeline, scene;         // files; an empty scene is the pipeline's own
+  std::vector<std::string> set, disable;
+  std::string image = "1280x720";
+};
+// The options of `inputs`, the same for every verb that takes a pipeline.
+void add_inputs(CLI::App& verb, Inputs& inputs);
+
+struct Loaded {
+  std::string pipeline_file, scene_file;
+  config::Node scene_node;  // as read, with --set applied
+  std::shared_ptr<const stages::Problem> problem;
+  graph::Registry registry;
+  graph::PipelineSpec pipeline;
+  graph::Plan plan;
+  config::Diagnostics diagnostics;  // warnings only, once loaded
+};
+
+// Throws config::InputError with everything that is wrong with pipeline and scene. `output`: folder for what stages write.
+Loaded load(const Inputs& inputs, const std::string& output);
+
+// `name` as given, else below the folders of pipelines that come with Firn, with or without .yaml. Unchanged where nothing is found.
+std::string find_input(const std::string& name, const std::string& folder);
+
+// Where shaders are: FIRN_DATA, share/firn beside the program's own folder, or the source tree it was built from.
+std::vector<std::filesystem::path> data_folders();
+std::vector<std::filesystem::path> shader_folders();
+
+// Errors and warnings, one per line, to stderr.
+void print(const config::Diagnostics& diagnostics);
+
+}  // namespace firn::app

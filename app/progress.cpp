@@ -1,0 +1,54 @@
+#include "app/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace firn::app {
+namespace {
+
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<long>(std::ceil(seconds));
+  return whole >= 3600 ? fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60)
+                       : fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+}  // namespace
+
+Progress::Progress(double total, bool quiet) : total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+Progress::~Progress() { finish(); }
+
+void Progress::update(double done, std::uint64_t frame, std::uint64_t step) {
+  if (quiet_) return;
+  const auto now = Clock::now();
+  if (now - last_ < (terminal_ ? std::chrono::milliseconds(100) : std::chrono::milliseconds(5000))) return;
+  last_ = now;
+  print(done, frame, step);
+}
+
+void Progress::print(double done, std::uint64_t frame, std::uint64_t step) {
+  const double share = total_ > 0 ? std::clamp(done / total_, 0.0, 1.0) : 1.0;
+  const double passed = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double rate = passed > 0 ? static_cast<double>(step) / passed : 0;
+  const std::string left = share > 0 ? clock_text(passed * (1 - share) / share) : "?";
+  if (terminal_) {
+    constexpr int width = 30;
+    const auto filled = static_cast<std::size_t>(share * width);
+    fmt::print(stderr, "\r[{}{}] {:3.0f} %  frame {}  step {}  {:.0f} steps/s  {} left \033[K", std::string(filled, '='),
+               std::string(width - filled, ' '), 100 * share, frame, step, rate, left);
+    open_line_ = true;
+  } else {
+    fmt::print(stderr, "{:3.0f} %  frame {}  step {}  {:.0f} steps/s  {} left\n", 100 * share, frame, step, rate, left);
+  }
+}
+
+void Progress::finish() {
+  if (open_line_) fmt::print(stderr, "\r\033[K");
+  open_line_ = false;
+}
+
+}  // namespace firn::app

@@ -1,0 +1,31 @@
+#pragma once
+
+// How far a run is: a bar on a terminal, a plain line now and then elsewhere. On stderr.
+
+#include <chrono>
+#include <cstdint>
+
+namespace firn::app {
+
+class Progress {
+ public:
+  // `total`: what is to be done, in the unit of update(). Silent where `quiet`.
+  Progress(double total, bool quiet);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void update(double done, std::uint64_t frame, std::uint64_t step);
+  void finish();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void print(double done, std::uint64_t frame, std::uint64_t step);
+
+  double total_;
+  bool quiet_, terminal_;
+  bool open_line_ = false;
+  Clock::time_point start_ = Clock::now(), last_ = start_ - std::chrono::hours(1);
+};
+
+}  // namespace firn::app

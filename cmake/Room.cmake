@@ -1,0 +1,26 @@
+# firn_options(target): the compile options that every target of Firn shares.
+function(firn_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+  if(FIRN_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(FIRN_SANITIZE)
+    target_compile_options(${target} PUBLIC -fsanitize=address,undefined -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+  endif()
+endfunction()
+
+# firn_room(folder LINK libraries...): one folder of the house as a static library, firn_<folder>.
+# A folder with rooms of its own (stages/) takes in all files below it, save rooms declared elsewhere (graph/execution/).
+function(firn_room folder)
+  cmake_parse_arguments(room "" "" "LINK" ${ARGN})
+  string(REPLACE "/" "_" name ${folder})
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/${folder}/*.cpp)
+  if(folder STREQUAL "graph")
+    list(FILTER sources EXCLUDE REGEX "/graph/execution/")
+  endif()
+  add_library(firn_${name} STATIC ${sources})
+  target_include_directories(firn_${name} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_link_libraries(firn_${name} PUBLIC ${room_LINK})
+  firn_options(firn_${name})
+endfunction()

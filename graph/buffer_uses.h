@@ -1,0 +1,33 @@
+#pragma once
+
+// What is asked of whole buffers once all stages are bound: checks, and how long each lives.
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "config/diagnostics.h"
+#include "graph/plan.h"
+#include "graph/registry.h"
+
+namespace firn::graph {
+
+// One piece of work, or the end of a repeat, on one buffer.
+struct BufferUse {
+  Place place;
+  std::string label;
+  Access access = Access::read;
+  Usage usage = Usage::storage;
+  bool in_step = false;
+  bool in_every_step = false;
+};
+using BufferUses = std::map<int, std::vector<BufferUse>>;  // by buffer; uses in the order of execution
+
+// Errors: a buffer that is read but never written; an image used as a buffer. Warnings: a read before the first write; writes
+// that nobody reads.
+void check_buffers(const Plan& plan, const BufferUses& uses, const Registry& registry, config::Diagnostics& diagnostics);
+
+// Lifetimes and storage of all buffers, and the plan's bytes.
+void lay_out_memory(Plan& plan, const BufferUses& uses);
+
+}  // namespace firn::graph

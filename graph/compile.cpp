@@ -1,0 +1,301 @@
+#include "graph/compile.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "config/nearest.h"
+#include "config/reader.h"
+#include "graph/barriers.h"
+#include "graph/buffer_uses.h"
+#include "graph/glsl.h"
+
+namespace firn::graph {
+namespace {
+
+using config::Diagnostics;
+
+Value read_value(const config::Node& node, const ParameterSpec& parameter, Diagnostics& diagnostics) {
+  config::Range range{.min = parameter.min, .max = parameter.max};
+  if (parameter.kind == ParameterKind::integer) {  // GLSL's int
+    range.min = std::max(range.min, static_cast<double>(std::numeric_limits<std::int32_t>::min()));
+    range.max = std::min(range.max, static_cast<double>(std::numeric_limits<std::int32_t>::max()));
+  }
+  const auto or_initial = [&](const auto& read) { return read ? Value(*read) : parameter.initial; };
+  switch (parameter.kind) {
+    case ParameterKind::number:
+      return or_initial(config::read_number(node, parameter.name, range, diagnostics));
+    case ParameterKind::integer:
+      return or_initial(config::read_integer(node, parameter.name, range, diagnostics));
+    case ParameterKind::boolean:
+      return or_initial(config::read_boolean(node, parameter.name, diagnostics));
+    case ParameterKind::choice:
+      return or_initial(config::read_choice(node, parameter.name, parameter.choices, diagnostics));
+    case ParameterKind::vector3:
+      return or_initial(config::read_vector3(node, parameter.name, range, diagnostics));
+    case ParameterKind::path:
+      return or_initial(config::read_text(node, parameter.name, diagnostics));
+  }
+  return parameter.initial;
+}
+
+class Compiler {
+ public:
+  Compiler(const PipelineSpec& pipeline, const Registry& registry, const Environment& environment, Diagnostics& diagnostics)
+      : pipeline_(pipeline), registry_(registry), diagnostics_(diagnostics) {
+    plan_.pipeline = pipeline.name;
+    plan_.file = pipeline.file;
+    plan_.environment = environment;
+  }
+
+  Plan run() {
+    phase(pipeline_.setup, plan_.setup, false);
+    phase(pipeline_.step, plan_.step, true);
+    phase(pipeline_.frame, plan_.frame, false);
+    check_buffers(plan_, uses_, registry_, diagnostics_);
+    if (diagnostics_.has_errors()) return std::move(plan_);
+    lay_out_memory(plan_, uses_);
+    place_barriers(plan_);
+    return std::move(plan_);
+  }
+
+ private:
+  void phase(const std::vector<Item>& items, std::vector<Op>& ops, bool in_step) {
+    for (const Item& item : items) {
+      if (const auto* use = std::get_if<StageUse>(&item.what)) stage(*use, ops, in_step);
+      if (const auto* repeat = std::get_if<RepeatUse>(&item.what)) {
+        Repeat planned;
+        planned.max = repeat->max;
+        phase(repeat->stages, planned.body, in_step);
+        if (planned.body.empty()) continue;
+        if (!repeat->until.empty()) until(repeat->until.front(), planned, in_step);
+        ops.push_back({std::move(planned)});
+      }
+    }
+  }
+
+  void until(const Until& until, Repeat& planned, bool in_step) {
+    const int buffer = plan_.buffer(until.buffer);
+    if (buffer < 0) {
+      diagnostics_.error(until.place,
+                         fmt::format("no buffer '{}' to watch{}", until.buffer, config::suggestion(until.buffer, buffer_names())));
+      return;
+    }
+    const PlannedBuffer& watched = plan_.buffers[static_cast<std::size_t>(buffer)];
+    if (watched.type != ElementType::float1 || watched.count != 1)
+      diagnostics_.error(until.place, fmt::format("until needs a buffer of one float; '{}' is {} x {}", until.buffer, watched.count,
+                                                  name(watched.type)));
+    uses_[buffer].push_back({until.place, "until", Access::read, Usage::transfer, in_step, in_step});
+    planned.until = PlannedUntil{buffer, until.below};
+  }
+
+  [[nodiscard]] std::vector<std::string> buffer_names() const {
+    std::vector<std::string> names;
+    for (const PlannedBuffer& buffer : plan_.buffers) names.push_back(buffer.name);
+    return names;
+  }
+
+  void stage(const StageUse& use, std::vector<Op>& ops, bool in_step) {
+    const StageType* type = registry_.find(use.stage);
+    if (type == nullptr) {
+      diagnostics_.error(use.place,
+                         fmt::format("unknown stage '{}'{}", use.stage, config::suggestion(use.stage, registry_.names())));
+      return;
+    }
+    PlannedStage planned;
+    planned.label = use.label;
+    planned.every = use.every;
+    planned.place = use.place;
+    planned.spec = type->spec;
+    planned.parameters = parameters(use, type->spec);
+    keep_what_holds(planned);
+    const bool bindings_known = check_bindings(use, type->spec, planned.spec);
+    if (!use.enabled || !bindings_known) return;
+    check_constants(use, planned.spec);
+    for (const Port& port : planned.spec.ports) planned.buffers.push_back(bind(port, use, planned));
+    check_work_domains(use, planned.spec);
+    plan_.stages.push_back(planned);
+    add_ops(static_cast<int>(plan_.stages.size()) - 1, ops, in_step);
+  }
+
+  ParameterValues parameters(const StageUse& use, const StageSpec& spec) {
+    ParameterValues values;
+    for (const ParameterSpec& parameter : spec.parameters) values[parameter.name] = parameter.initial;
+    for (const config::Entry& given : use.parameters) {
+      const auto parameter = std::ranges::find(spec.parameters, given.key, &ParameterSpec::name);
+      if (parameter == spec.parameters.end()) {
+        std::vector<std::string> known{"bind", "every", "enable", "as"};
+        for (const ParameterSpec& p : spec.parameters) known.insert(known.end() - 4, p.name);
+        diagnostics_.error(given.place,
+                           fmt::format("{} has no parameter '{}'{}", spec.name, given.key, config::suggestion(given.key, known)));
+        continue;
+      }
+      values[given.key] = read_value(given.value, *parameter, diagnostics_);
+    }
+    return values;
+  }
+
+  [[nodiscard]] bool holds(const Condition& condition, const PlannedStage& stage) const {
+    if (condition.name.empty()) return true;
+    if (const auto value = stage.parameters.find(condition.name); value != stage.parameters.end())
+      return to_string(value->second) == condition.value;
+    const auto choice = plan_.environment.choices.find(condition.name);
+    return choice != plan_.environment.choices.end() && choice->second == condition.value;
+  }
+
+  void keep_what_holds(PlannedStage& stage) const {
+    std::erase_if(stage.spec.ports, [&](const Port& port) { return !holds(port.when, stage); });
+    std::erase_if(stage.spec.work,
+                  [&](const Work& work) { return !holds(std::visit([](const auto& w) { return w.when; }, work), stage); });
+  }
+
+  bool check_bindings(const StageUse& use, const StageSpec& whole, const StageSpec& active) {
+    bool known = true;
+    for (const Binding& binding : use.bindings) {
+      if (std::ranges::find(active.ports, binding.port, &Port::name) != active.ports.end()) continue;
+      known = false;
+      std::vector<std::string> names;
+      for (const Port& port : active.ports) names.push_back(port.name);
+      const bool elsewhere = std::ranges::find(whole.ports, binding.port, &Port::name) != whole.ports.end();
+      diagnostics_.error(
+          binding.place,
+          elsewhere ? fmt::format("{} has port '{}' only with other parameters", use.stage, binding.port)
+                    : fmt::format("{} has no port '{}'{}", use.stage, binding.port, config::suggestion(binding.port, names)));
+    }
+    return known;
+  }
+
+  [[nodiscard]] std::string why_missing(const std::string& name) const {
+    const auto reason = plan_.environment.missing.find(name);
+    return reason == plan_.environment.missing.end() ? "" : ": " + reason->second;
+  }
+
+  void check_constants(const StageUse& use, const StageSpec& spec) {
+    for (const std::string& constant : spec.constants)
+      if (plan_.environment.constant(constant) == nullptr)
+        diagnostics_.error(use.place,
+                           fmt::format("{} needs '{}', which is not known here{}", spec.name, constant, why_missing(constant)));
+  }
+
+  // Once per stage, however many ports have the domain.
+  void unknown_domain(const Place& place, const StageUse& use, const std::string& domain) {
+    const std::string base = base_domain(domain);
+    if (unknown_domains_.insert(use.label + " " + base).second)
+      diagnostics_.error(place, fmt::format("{} works on '{}', which is not known here{}", use.stage, base, why_missing(base)));
+  }
+
+  void check_work_domains(const StageUse& use, const StageSpec& spec) {
+    for (const Work& work : spec.work) {
+      std::vector<DomainText> domains;
+      if (const auto* dispatch = std::get_if<Dispatch>(&work)) domains = {dispatch->over};
+      if (const auto* draw = std::get_if<Draw>(&work)) domains = {draw->instances, draw->vertices};
+      for (const DomainText& domain : domains)
+        if (!domain.empty() && !element_count(domain, plan_.environment)) unknown_domain(use.place, use, domain);
+    }
+  }
+
+  // The buffer of a port, made where this is the first use of its name. -1: none.
+  int bind(const Port& port, const StageUse& use, const PlannedStage& stage) {
+    std::string wanted = port.name;
+    Place place = use.place;
+    bool explicitly = false;
+    for (const Binding& binding : use.bindings)
+      if (binding.port == port.name) {
+        wanted = binding.buffer;
+        place = binding.place;
+        explicitly = true;
+      }
+    const auto count = element_count(port.domain, plan_.environment);
+    const int existing = plan_.buffer(wanted);
+    if (port.optional && !explicitly && existing < 0) return -1;
+    if (!count) {
+      unknown_domain(place, use, port.domain);
+      return -1;
+    }
+    const int index = existing >= 0 ? existing : make_buffer(wanted, port, *count, place);
+    PlannedBuffer& buffer = plan_.buffers[static_cast<std::size_t>(index)];
+    if (existing >= 0) match(port, *count, buffer, place, stage);
+    const bool texture = is_texel(port.type) || port.usage == Usage::framebuffer || port.usage == Usage::image;
+    buffer.texture |= texture;
+    if (texture && buffer.width == 0)
+      diagnostics_.error(place, fmt::format("{}: port '{}' is an image, but its domain '{}' is not two-dimensional",
+                                            stage.spec.name, port.name, port.domain));
+    return index;
+  }
+
+  int make_buffer(const std::string& name, const Port& port, std::uint64_t count, const Place& place) {
+    PlannedBuffer buffer;
+    buffer.name = name;
+    buffer.type = port.type;
+    buffer.domain = port.domain;
+    buffer.unit = port.unit;
+    buffer.count = count;
+    buffer.bytes = count * stride(port.type);
+    buffer.place = place;
+    if (const auto size = plan_.environment.domains.find(port.domain); size != plan_.environment.domains.end()) {
+      buffer.width = size->second.width;
+      buffer.height = size->second.height;
+    }
+    plan_.buffers.push_back(buffer);
+    return static_cast<int>(plan_.buffers.size()) - 1;
+  }
+
+  void match(const Port& port, std::uint64_t count, const PlannedBuffer& buffer, const Place& place, const PlannedStage& stage) {
+    const auto mismatch = [&](std::string_view what, std::string_view theirs, std::string_view ours) {
+      diagnostics_.error(place,
+                         fmt::format("{}: port '{}' and buffer '{}' differ in {}: the buffer is {} (since {}), the port wants {}",
+                                     stage.spec.name, port.name, buffer.name, what, theirs, to_string(buffer.place), ours));
+    };
+    if (port.type != buffer.type) mismatch("type", name(buffer.type), name(port.type));
+    if (port.domain != buffer.domain && (count != buffer.count || base_domain(port.domain) != base_domain(buffer.domain)))
+      mismatch("domain", buffer.domain, port.domain);
+    if (port.unit != buffer.unit) mismatch("unit", buffer.unit, port.unit);
+  }
+
+  void add_ops(int index, std::vector<Op>& ops, bool in_step) {
+    const PlannedStage& stage = plan_.stages[static_cast<std::size_t>(index)];
+    for (int w = 0; w < static_cast<int>(stage.spec.work.size()); ++w) {
+      Run run{index, w, {}};
+      std::map<int, std::pair<std::string, Access>> touched;
+      for (const UsedPort& used : used_ports(stage, stage.spec.work[static_cast<std::size_t>(w)])) {
+        const Port& port = stage.spec.ports[static_cast<std::size_t>(used.port)];
+        const int buffer = stage.buffers[static_cast<std::size_t>(used.port)];
+        if (buffer < 0) continue;
+        const auto [other, first] = touched.emplace(buffer, std::pair{port.name, used.access});
+        if (!first && (writes(used.access) || writes(other->second.second)))
+          diagnostics_.error(
+              stage.place,
+              fmt::format("{}: ports '{}' and '{}' are both bound to buffer '{}', and one of them writes; bind "
+                          "them to two buffers",
+                          stage.label, other->second.first, port.name, plan_.buffers[static_cast<std::size_t>(buffer)].name));
+        run.accesses.push_back({buffer, used.access, used.usage});
+        uses_[buffer].push_back({stage.place, stage.label, used.access, used.usage, in_step, in_step && stage.every == 1});
+      }
+      ops.push_back({std::move(run)});
+    }
+  }
+
+  const PipelineSpec& pipeline_;
+  const Registry& registry_;
+  Diagnostics& diagnostics_;
+  Plan plan_;
+  BufferUses uses_;
+  std::set<std::string> unknown_domains_;
+};
+
+}  // namespace
+
+int Plan::buffer(const std::string& name) const {
+  const auto found = std::ranges::find(buffers, name, &PlannedBuffer::name);
+  return found == buffers.end() ? -1 : static_cast<int>(found - buffers.begin());
+}
+
+Plan compile(const PipelineSpec& pipeline, const Registry& registry, const Environment& environment, Diagnostics& diagnostics) {
+  return Compiler(pipeline, registry, environment, diagnostics).run();
+}
+
+}  // namespace firn::graph

@@ -1,0 +1,289 @@
+#include "graph/execution/execution.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "graph/execution/kernels.h"
+
+namespace firn::execution {
+namespace {
+
+using graph::Bits;
+using graph::Op;
+using graph::Plan;
+using graph::PlannedBuffer;
+using graph::PlannedStage;
+
+static_assert(static_cast<std::uint32_t>(gpu::BarrierBit::shader_storage) == graph::bit_shader_storage &&
+                  static_cast<std::uint32_t>(gpu::BarrierBit::vertex_attrib_array) == graph::bit_vertex_attrib_array &&
+                  static_cast<std::uint32_t>(gpu::BarrierBit::buffer_update) == graph::bit_buffer_update &&
+                  static_cast<std::uint32_t>(gpu::BarrierBit::texture_fetch) == graph::bit_texture_fetch &&
+                  static_cast<std::uint32_t>(gpu::BarrierBit::command) == graph::bit_command,
+              "plan bits are passed on as they are");
+
+struct ClockBlock {  // std140, as graph/glsl.cpp declares it
+  float dt = 0, time = 0;
+  std::uint32_t step = 0, frame = 0;
+};
+
+template <typename T>
+std::span<const std::byte> bytes_of(const T& value) {
+  return std::as_bytes(std::span(&value, 1));
+}
+
+}  // namespace
+
+std::vector<std::string> shortcomings(const Plan& plan, const gpu::Limits& limits) {
+  std::vector<std::string> found;
+  for (const PlannedBuffer& buffer : plan.buffers) {
+    if (!buffer.texture && buffer.bytes > limits.storage_block_bytes)
+      found.push_back(fmt::format("buffer '{}' needs {} bytes; the device's storage blocks hold {}", buffer.name, buffer.bytes,
+                                  limits.storage_block_bytes));
+    if (buffer.texture && std::max(buffer.width, buffer.height) > limits.texture_size)
+      found.push_back(fmt::format("image '{}' is {} x {}; the device's textures end at {}", buffer.name, buffer.width, buffer.height,
+                                  limits.texture_size));
+  }
+  for (int s = 0; s < static_cast<int>(plan.stages.size()); ++s) {
+    const PlannedStage& stage = plan.stages[static_cast<std::size_t>(s)];
+    for (int w = 0; w < static_cast<int>(stage.spec.work.size()); ++w) {
+      const auto* dispatch = std::get_if<graph::Dispatch>(&stage.spec.work[static_cast<std::size_t>(w)]);
+      if (dispatch == nullptr) continue;
+      const graph::KernelInterface interface = graph::kernel_interface(plan, s, w, {});
+      if (interface.storage_blocks > limits.storage_blocks_compute)
+        found.push_back(fmt::format("{} ({}) needs {} storage blocks; the device has {} per compute shader", stage.label, dispatch->kernel,
+                                    interface.storage_blocks, limits.storage_blocks_compute));
+      if (static_cast<std::uint32_t>(dispatch->group) > limits.group_invocations)
+        found.push_back(fmt::format("{} ({}) needs work groups of {}; the device's end at {}", stage.label, dispatch->kernel,
+                                    dispatch->group, limits.group_invocations));
+    }
+    for (const graph::Work& work : stage.spec.work)
+      for (const graph::UsedPort& used : graph::used_ports(stage, work)) {
+        const PlannedBuffer& buffer = plan.buffers[static_cast<std::size_t>(stage.buffers[static_cast<std::size_t>(used.port)])];
+        const std::uint64_t texels = buffer.count * (buffer.type == graph::ElementType::mat3 ? 3 : 1);
+        if (used.usage == graph::Usage::sampled && !buffer.texture && texels > limits.texture_buffer_texels)
+          found.push_back(fmt::format("{} reads '{}' as {} texels; the device's buffer textures hold {}", stage.label, buffer.name, texels,
+                                      limits.texture_buffer_texels));
+      }
+  }
+  return found;
+}
+
+struct Execution::Parts {
+  gpu::Device& device;
+  Plan plan;
+  Options options;
+  graph::Clock clock;
+  Memory memory;
+  std::vector<std::vector<Kernel>> kernels;                // by stage, by work
+  std::vector<gpu::Buffer> parameters;                     // by stage
+  std::vector<std::unique_ptr<graph::HostStage>> host;     // by stage; empty where it has no host work
+  gpu::Buffer clock_block;
+  gpu::Buffer faults;  // per stage and kind: count, 0xffffffff - first step
+  std::unique_ptr<gpu::TimerRing> timers;
+
+  Parts(gpu::Device& device_, Plan plan_, const graph::Registry& registry, Options options_)
+      : device(device_), plan(std::move(plan_)), options(std::move(options_)), memory(plan, device) {
+    clock_block = gpu::Buffer(sizeof(ClockBlock), "clock");
+    faults = gpu::Buffer(plan.stages.size() * graph::fault_kinds * 2 * sizeof(std::uint32_t), "faults");
+    for (int s = 0; s < static_cast<int>(plan.stages.size()); ++s) {
+      const PlannedStage& stage = plan.stages[static_cast<std::size_t>(s)];
+      device.label(stage.label.c_str());
+      const std::vector<std::byte> block = graph::parameter_block(plan, s);
+      parameters.emplace_back(block.size(), stage.label + " parameters");
+      if (!block.empty()) parameters.back().upload(0, block);
+      std::vector<Kernel>& of_stage = kernels.emplace_back();
+      bool has_host_work = false;
+      for (int w = 0; w < static_cast<int>(stage.spec.work.size()); ++w) {
+        of_stage.push_back(make_kernel(plan, s, w, memory, device, options.shader_folders));
+        has_host_work |= std::holds_alternative<graph::HostWork>(stage.spec.work[static_cast<std::size_t>(w)]);
+      }
+      host.push_back(has_host_work ? registry.find(stage.spec.name)->host(stage.parameters) : nullptr);
+    }
+    if (options.profile) timers = std::make_unique<gpu::TimerRing>(4096);
+  }
+
+  void upload_clock() {
+    const ClockBlock block{static_cast<float>(clock.dt), static_cast<float>(clock.time), static_cast<std::uint32_t>(clock.step),
+                           static_cast<std::uint32_t>(clock.frame)};
+    clock_block.upload(0, bytes_of(block));
+  }
+
+  void run(const std::vector<Op>& ops, std::uint64_t turn) {
+    for (const Op& op : ops) {
+      if (const auto* barrier = std::get_if<graph::Barrier>(&op.what)) {
+        if (!options.barriers_all) gpu::memory_barrier(barrier->bits);
+      } else if (const auto* run = std::get_if<graph::Run>(&op.what)) {
+        work(*run, turn);
+      } else if (const auto* repeat = std::get_if<graph::Repeat>(&op.what)) {
+        for (std::int64_t i = 0; i < repeat->max; ++i) {
+          this->run(repeat->body, turn);
+          if (repeat->until && reached(*repeat->until)) break;
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] bool reached(const graph::PlannedUntil& until) const {
+    float value = 0;
+    memory.buffers[static_cast<std::size_t>(until.buffer)].download(0, std::as_writable_bytes(std::span(&value, 1)));
+    return value < until.below;
+  }
+
+  void work(const graph::Run& run, std::uint64_t turn);
+};
+
+namespace {
+
+class Context final : public graph::HostContext {
+ public:
+  Context(const PlannedStage& stage, const Plan& plan, Memory& memory, graph::Clock& clock)
+      : stage_(stage), plan_(plan), memory_(memory), clock_(clock) {}
+
+  [[nodiscard]] graph::PortView view(std::string_view port) const override {
+    const PlannedBuffer& buffer = plan_.buffers[index(port)];
+    return {buffer.type, buffer.count, buffer.width, buffer.height};
+  }
+  [[nodiscard]] bool bound(std::string_view port) const override {
+    return std::ranges::any_of(stage_.spec.ports, [&](const graph::Port& p) {
+      return p.name == port && stage_.buffers[static_cast<std::size_t>(&p - stage_.spec.ports.data())] >= 0;
+    });
+  }
+  std::vector<std::byte> read(std::string_view port) override {
+    const std::size_t b = index(port);
+    if (plan_.buffers[b].texture) return memory_.textures[b].download();
+    std::vector<std::byte> data(plan_.buffers[b].bytes);
+    memory_.buffers[b].download(0, data);
+    return data;
+  }
+  void write(std::string_view port, std::span<const std::byte> data) override {
+    const std::size_t b = index(port);
+    if (data.size() != plan_.buffers[b].bytes)
+      throw std::logic_error(fmt::format("{}: writes {} bytes to '{}', which has {}", stage_.label, data.size(), port, plan_.buffers[b].bytes));
+    if (plan_.buffers[b].texture)
+      memory_.textures[b].upload(data);
+    else if (!data.empty())
+      memory_.buffers[b].upload(0, data);
+  }
+  [[nodiscard]] const graph::Clock& clock() const override { return clock_; }
+  void set_time_step(double dt) override {
+    if (!stage_.spec.sets_time_step) throw std::logic_error(fmt::format("{} sets the time step, but does not say so", stage_.label));
+    clock_.dt = dt;
+  }
+
+ private:
+  [[nodiscard]] std::size_t index(std::string_view port) const {
+    for (std::size_t p = 0; p < stage_.spec.ports.size(); ++p)
+      if (stage_.spec.ports[p].name == port && stage_.buffers[p] >= 0) return static_cast<std::size_t>(stage_.buffers[p]);
+    throw std::logic_error(fmt::format("{} has no bound port '{}'", stage_.label, port));
+  }
+
+  const PlannedStage& stage_;
+  const Plan& plan_;
+  Memory& memory_;
+  graph::Clock& clock_;
+};
+
+}  // namespace
+
+void Execution::Parts::work(const graph::Run& run, std::uint64_t turn) {
+  const auto s = static_cast<std::size_t>(run.stage);
+  const PlannedStage& stage = plan.stages[s];
+  if (turn % static_cast<std::uint64_t>(stage.every) != 0) return;
+  device.label(stage.label.c_str());
+  if (std::holds_alternative<graph::HostWork>(stage.spec.work[static_cast<std::size_t>(run.work)])) {
+    const double before = clock.dt;
+    Context context(stage, plan, memory, clock);
+    host[s]->run(context);
+    if (clock.dt != before) upload_clock();
+    return;
+  }
+  if (timers) timers->begin(run.stage * 64 + run.work);
+  run_kernel(plan, run.stage, run.work, kernels[s][static_cast<std::size_t>(run.work)], memory, parameters[s], clock_block, faults);
+  if (timers) timers->end();
+  if (options.barriers_all) gpu::memory_barrier_all();
+}
+
+Execution::Execution(gpu::Device& device, Plan plan, const graph::Registry& registry, Options options) {
+  if (const std::vector<std::string> missing = shortcomings(plan, device.info().limits); !missing.empty())
+    throw gpu::DeviceError(fmt::format("{} cannot run {}:\n  {}", device.info().name, plan.pipeline, fmt::join(missing, "\n  ")));
+  parts_ = std::make_unique<Parts>(device, std::move(plan), registry, std::move(options));
+}
+
+Execution::~Execution() = default;
+
+void Execution::setup() {
+  parts_->upload_clock();
+  parts_->run(parts_->plan.setup, 0);
+  parts_->device.check();
+}
+
+void Execution::step() {
+  graph::Clock& clock = parts_->clock;
+  parts_->upload_clock();
+  parts_->run(parts_->plan.step, clock.step);
+  parts_->device.check();
+  clock.time += clock.dt;
+  ++clock.step;
+}
+
+void Execution::frame() {
+  parts_->upload_clock();
+  parts_->run(parts_->plan.frame, parts_->clock.frame);
+  parts_->device.check();
+  ++parts_->clock.frame;
+}
+
+void Execution::finish() {
+  for (const auto& stage : parts_->host)
+    if (stage) stage->finish();
+}
+
+void Execution::check_faults() {
+  const std::size_t slots = parts_->plan.stages.size() * graph::fault_kinds;
+  if (slots == 0) return;
+  std::vector<std::uint32_t> words(slots * 2);
+  gpu::memory_barrier(graph::bit_buffer_update);
+  parts_->faults.download(0, std::as_writable_bytes(std::span(words)));
+  std::size_t worst = slots;
+  for (std::size_t i = 0; i < slots; ++i)
+    if (words[2 * i] > 0 && (worst == slots || words[2 * i + 1] > words[2 * worst + 1])) worst = i;
+  if (worst == slots) return;
+  const PlannedStage& stage = parts_->plan.stages[worst / graph::fault_kinds];
+  const auto kind = static_cast<graph::Fault>(worst % graph::fault_kinds);
+  throw NumbersError(fmt::format("{} found {} in step {} ({} {})", stage.label, graph::describe(kind), 0xffffffffu - words[2 * worst + 1],
+                                 words[2 * worst], words[2 * worst] == 1 ? "case" : "cases"));
+}
+
+graph::Clock& Execution::clock() { return parts_->clock; }
+const Plan& Execution::plan() const { return parts_->plan; }
+
+std::vector<std::byte> Execution::read(const std::string& name) const {
+  const int index = parts_->plan.buffer(name);
+  if (index < 0) throw std::out_of_range(fmt::format("no buffer '{}'", name));
+  const auto b = static_cast<std::size_t>(index);
+  if (parts_->plan.buffers[b].texture) return parts_->memory.textures[b].download();
+  gpu::memory_barrier(graph::bit_buffer_update);
+  std::vector<std::byte> data(parts_->plan.buffers[b].bytes);
+  parts_->memory.buffers[b].download(0, data);
+  return data;
+}
+
+void Execution::write(const std::string& name, std::span<const std::byte> data) {
+  const int index = parts_->plan.buffer(name);
+  if (index < 0) throw std::out_of_range(fmt::format("no buffer '{}'", name));
+  gpu::memory_barrier(graph::bit_buffer_update);
+  parts_->memory.buffers[static_cast<std::size_t>(index)].upload(0, data);
+}
+
+std::vector<PassTime> Execution::take_times() {
+  std::vector<PassTime> times;
+  if (!parts_->timers) return times;
+  for (const gpu::TimerRing::Sample& sample : parts_->timers->collect(true))
+    times.push_back({sample.tag / 64, sample.tag % 64, sample.seconds});
+  return times;
+}
+
+}  // namespace firn::execution

@@ -1,0 +1,72 @@
+#pragma once
+
+// A plan on a device.
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "gpu/device.h"
+#include "graph/plan.h"
+#include "graph/registry.h"
+
+namespace firn::execution {
+
+// The numbers broke: NaN, overflow, a particle outside the domain. The text names stage, step and count.
+class NumbersError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Options {
+  std::vector<std::filesystem::path> shader_folders;  // searched in this order, for kernels and their includes
+  bool barriers_all = false;                          // a full barrier after every piece of work instead of the plan's own
+  bool profile = false;                               // time every piece of work
+};
+
+// One piece of work, timed since the last call of take_times().
+struct PassTime {
+  int stage = 0;
+  int work = 0;
+  double seconds = 0;
+};
+
+// What the device lacks for a plan, one sentence each; empty: nothing.
+std::vector<std::string> shortcomings(const graph::Plan& plan, const gpu::Limits& limits);
+
+class Execution {
+ public:
+  // Allocates buffers, compiles kernels, makes host stages. Throws gpu::DeviceError where the device cannot do it (before anything is
+  // allocated), gpu::ShaderError where a kernel does not compile.
+  Execution(gpu::Device& device, graph::Plan plan, const graph::Registry& registry, Options options);
+  ~Execution();
+  Execution(const Execution&) = delete;
+  Execution& operator=(const Execution&) = delete;
+
+  void setup();
+  // One step of the clock's dt, or of what a stage with sets_time_step makes of it; then the clock goes on.
+  void step();
+  // Draws and writes the current state; then the frame number goes on.
+  void frame();
+  void finish();
+
+  // Throws NumbersError where kernels have reported a fault. Waits for the device.
+  void check_faults();
+
+  [[nodiscard]] graph::Clock& clock();
+  [[nodiscard]] const graph::Plan& plan() const;
+
+  // The contents of a buffer in device layout, and the reverse. Throws std::out_of_range for an unknown name.
+  [[nodiscard]] std::vector<std::byte> read(const std::string& buffer) const;
+  void write(const std::string& buffer, std::span<const std::byte> data);
+
+  std::vector<PassTime> take_times();
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace firn::execution

@@ -1,0 +1,208 @@
+#include "graph/execution/kernels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace firn::execution {
+namespace {
+
+using graph::Dispatch;
+using graph::Draw;
+using graph::ElementType;
+using graph::Plan;
+using graph::PlannedBuffer;
+using graph::PlannedStage;
+using graph::Usage;
+
+const PlannedStage& stage_of(const Plan& plan, int stage) { return plan.stages[static_cast<std::size_t>(stage)]; }
+
+gpu::TexelFormat texture_format(ElementType type) {
+  switch (type) {
+    case ElementType::rgba8: return gpu::TexelFormat::rgba8;
+    case ElementType::depth: return gpu::TexelFormat::depth32f;
+    case ElementType::float1: return gpu::TexelFormat::r32f;
+    case ElementType::vec2: return gpu::TexelFormat::rg32f;
+    case ElementType::vec3:
+    case ElementType::vec4: return gpu::TexelFormat::rgba32f;
+    case ElementType::int1: return gpu::TexelFormat::r32i;
+    case ElementType::uint1: return gpu::TexelFormat::r32ui;
+    default: throw std::logic_error(fmt::format("no texture holds {}", graph::name(type)));
+  }
+}
+
+// Texels as the padded elements lie in memory: mat3 is three of four floats.
+gpu::TexelFormat texel_format(ElementType type) {
+  const bool single = graph::components(type) == 1;
+  const bool pair = graph::components(type) == 2;
+  switch (graph::scalar(type)) {
+    case graph::Scalar::integer: return single ? gpu::TexelFormat::r32i : pair ? gpu::TexelFormat::rg32i : gpu::TexelFormat::rgba32i;
+    case graph::Scalar::natural:
+      return single ? gpu::TexelFormat::r32ui : pair ? gpu::TexelFormat::rg32ui : gpu::TexelFormat::rgba32ui;
+    default: return single ? gpu::TexelFormat::r32f : pair ? gpu::TexelFormat::rg32f : gpu::TexelFormat::rgba32f;
+  }
+}
+
+const std::string& shader_file(const Draw& draw, gpu::ShaderKind kind) {
+  switch (kind) {
+    case gpu::ShaderKind::vertex: return draw.vertex;
+    case gpu::ShaderKind::fragment: return draw.fragment;
+    case gpu::ShaderKind::tessellation_control: return draw.tessellation_control;
+    default: return draw.tessellation_evaluation;
+  }
+}
+
+std::filesystem::path find_shader(const std::string& file, std::span<const std::filesystem::path> folders) {
+  if (std::filesystem::path(file).is_absolute()) return file;
+  std::string searched;
+  for (const std::filesystem::path& folder : folders) {
+    if (std::filesystem::is_regular_file(folder / file)) return folder / file;
+    searched += fmt::format(" {}", folder.string());
+  }
+  throw gpu::ShaderError(fmt::format("{}: error: no such shader below:{}", file, searched));
+}
+
+// Groups of a one-dimensional dispatch, folded into two axes where one is too short (65,535 is all that OpenGL promises).
+std::pair<std::uint32_t, std::uint32_t> folded(std::uint64_t groups) {
+  constexpr std::uint64_t row = 32768;
+  if (groups <= row) return {static_cast<std::uint32_t>(groups), 1};
+  return {static_cast<std::uint32_t>(row), static_cast<std::uint32_t>((groups + row - 1) / row)};
+}
+
+gpu::DrawState draw_state(const Draw& draw) {
+  gpu::DrawState state;
+  switch (draw.topology) {
+    case graph::Topology::points: state.topology = gpu::Topology::points; break;
+    case graph::Topology::lines: state.topology = gpu::Topology::lines; break;
+    case graph::Topology::triangles: state.topology = gpu::Topology::triangles; break;
+    case graph::Topology::triangle_strip: state.topology = gpu::Topology::triangle_strip; break;
+    case graph::Topology::patches: state.topology = gpu::Topology::patches; break;
+  }
+  state.patch_vertices = draw.patch_vertices;
+  state.depth_test = draw.depth.empty() ? gpu::DepthTest::off : gpu::DepthTest::less_equal;
+  state.depth_write = !draw.depth.empty() && draw.depth_write;
+  state.wireframe = draw.wireframe;
+  return state;
+}
+
+const gpu::Texture& target_texture(const PlannedStage& stage, const std::string& port, const Memory& memory) {
+  const auto at = std::ranges::find(stage.spec.ports, port, &graph::Port::name) - stage.spec.ports.begin();
+  return memory.textures[static_cast<std::size_t>(stage.buffers[static_cast<std::size_t>(at)])];
+}
+
+}  // namespace
+
+graph::DeviceTraits traits_of(const gpu::Device& device) {
+  return {device.version_directive(), device.has("GL_NV_shader_atomic_float")};
+}
+
+Memory::Memory(const Plan& plan, const gpu::Device&) {
+  const std::size_t count = plan.buffers.size();
+  buffers.resize(count);
+  textures.resize(count);
+  texels.resize(count);
+  for (std::size_t b = 0; b < count; ++b) {
+    const PlannedBuffer& buffer = plan.buffers[b];
+    if (buffer.texture)
+      textures[b] = gpu::Texture(buffer.width, buffer.height, texture_format(buffer.type), buffer.name);
+    else
+      buffers[b] = gpu::Buffer(buffer.bytes, buffer.name);
+  }
+  for (const PlannedStage& stage : plan.stages)
+    for (const graph::Work& work : stage.spec.work)
+      for (const graph::UsedPort& used : graph::used_ports(stage, work)) {
+        const auto b = static_cast<std::size_t>(stage.buffers[static_cast<std::size_t>(used.port)]);
+        if (used.usage != Usage::sampled || plan.buffers[b].texture || texels[b].id() != 0) continue;
+        texels[b] = gpu::BufferTexture(buffers[b], texel_format(plan.buffers[b].type), plan.buffers[b].name);
+      }
+}
+
+gpu::ShaderSource kernel_source(const Plan& plan, int stage, int work, const std::string& file, gpu::ShaderKind kind,
+                                const graph::DeviceTraits& traits, std::span<const std::filesystem::path> shader_folders) {
+  gpu::ShaderSource source;
+  source.files.emplace_back("generated");
+  source.text = kind == gpu::ShaderKind::compute ? graph::compute_prelude(plan, stage, work, traits)
+                                                 : graph::draw_prelude(plan, stage, work, kind == gpu::ShaderKind::fragment, traits);
+  gpu::append_file(source, find_shader(file, shader_folders), shader_folders);
+  return source;
+}
+
+Kernel make_kernel(const Plan& plan, int stage_index, int work_index, const Memory& memory, const gpu::Device& device,
+                   std::span<const std::filesystem::path> shader_folders) {
+  const PlannedStage& stage = stage_of(plan, stage_index);
+  const graph::Work& work = stage.spec.work[static_cast<std::size_t>(work_index)];
+  const graph::DeviceTraits traits = traits_of(device);
+  Kernel kernel;
+  std::vector<std::pair<gpu::ShaderKind, gpu::ShaderSource>> shaders;
+  const auto add = [&](const std::string& file, gpu::ShaderKind kind) {
+    shaders.emplace_back(kind, kernel_source(plan, stage_index, work_index, file, kind, traits, shader_folders));
+  };
+  const auto count = [&](const std::string& domain) { return element_count(domain, plan.environment).value_or(0); };
+  if (const auto* dispatch = std::get_if<Dispatch>(&work)) {
+    kernel.interface = graph::kernel_interface(plan, stage_index, work_index, traits);
+    if (!dispatch->over.empty()) kernel.elements = count(dispatch->over);
+    add(dispatch->kernel, gpu::ShaderKind::compute);
+  } else if (const auto* draw = std::get_if<Draw>(&work)) {
+    kernel.interface = graph::kernel_interface(plan, stage_index, work_index, traits);
+    kernel.elements = count(draw->instances);
+    kernel.vertices = count(draw->vertices);
+    using enum gpu::ShaderKind;
+    for (const gpu::ShaderKind kind : {vertex, tessellation_control, tessellation_evaluation, fragment})
+      if (!shader_file(*draw, kind).empty()) add(shader_file(*draw, kind), kind);
+    std::vector<const gpu::Texture*> colors;
+    for (const std::string& color : draw->colors) colors.push_back(&target_texture(stage, color, memory));
+    kernel.target = gpu::Framebuffer(colors, draw->depth.empty() ? nullptr : &target_texture(stage, draw->depth, memory), stage.label);
+  } else {
+    return kernel;
+  }
+  kernel.program = gpu::Program(shaders, stage.label);
+  return kernel;
+}
+
+void run_kernel(const Plan& plan, int stage_index, int work_index, const Kernel& kernel, const Memory& memory,
+                const gpu::Buffer& parameters, const gpu::Buffer& clock, const gpu::Buffer& faults) {
+  const PlannedStage& stage = stage_of(plan, stage_index);
+  const graph::Work& work = stage.spec.work[static_cast<std::size_t>(work_index)];
+  gpu::use(kernel.program);
+  gpu::bind_uniform(graph::parameter_block_binding, parameters);
+  gpu::bind_uniform(graph::clock_block_binding, clock);
+  if (kernel.interface.fault_binding >= 0) gpu::bind_storage(static_cast<std::uint32_t>(kernel.interface.fault_binding), faults);
+  for (const graph::PortBinding& binding : kernel.interface.ports) {
+    const auto buffer = static_cast<std::size_t>(stage.buffers[static_cast<std::size_t>(binding.port)]);
+    const auto at = static_cast<std::uint32_t>(binding.binding);
+    switch (binding.usage) {
+      case Usage::storage: gpu::bind_storage(at, memory.buffers[buffer]); break;
+      case Usage::uniform: gpu::bind_uniform(at, memory.buffers[buffer]); break;
+      case Usage::sampled:
+        if (binding.texture)
+          gpu::bind_texture(at, memory.textures[buffer]);
+        else
+          gpu::bind_texture(at, memory.texels[buffer]);
+        break;
+      case Usage::image: gpu::bind_image(at, memory.textures[buffer]); break;
+      case Usage::indirect: gpu::bind_indirect(memory.buffers[buffer]); break;
+      case Usage::vertex:
+      case Usage::transfer:
+      case Usage::host:
+      case Usage::framebuffer: break;
+    }
+  }
+  if (const auto* dispatch = std::get_if<Dispatch>(&work)) {
+    if (!dispatch->indirect.empty()) {
+      gpu::dispatch_indirect(0);
+    } else if (kernel.elements > 0) {
+      const auto [x, y] = folded((kernel.elements + static_cast<std::uint64_t>(dispatch->group) - 1) /
+                                 static_cast<std::uint64_t>(dispatch->group));
+      gpu::dispatch(x, y, 1);
+    }
+  } else if (const auto* draw = std::get_if<Draw>(&work)) {
+    if (draw->clear) {
+      for (int color = 0; color < static_cast<int>(draw->colors.size()); ++color) gpu::clear_color(kernel.target, color, 0, 0, 0, 0);
+      if (!draw->depth.empty()) gpu::clear_depth(kernel.target, 1);
+    }
+    if (kernel.elements > 0 && kernel.vertices > 0)
+      gpu::draw(kernel.target, draw_state(*draw), static_cast<std::uint32_t>(kernel.vertices), static_cast<std::uint32_t>(kernel.elements));
+  }
+}
+
+}  // namespace firn::execution

@@ -1,0 +1,86 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "scene/read.h"
+
+namespace firn::scene::detail {
+
+std::optional<Plane> read_plane(const Node& node, Diagnostics& diagnostics) {
+  Reader reader(node, "a plane", diagnostics);
+  Plane plane;
+  plane.point = vector3(reader, "point", plane.point);
+  const std::optional<Vector3d> normal = required_vector3(reader, "normal");
+  reader.finish();
+  if (!normal) return std::nullopt;
+  if (!(normal->norm() > 0)) {
+    diagnostics.error(node.find("normal")->place, "the normal of a plane must not be zero; [0, 1, 0] points up");
+    return std::nullopt;
+  }
+  plane.normal = normal->normalized();
+  return plane;
+}
+
+std::optional<Sphere> read_sphere(const Node& node, bool center_required, Diagnostics& diagnostics) {
+  Reader reader(node, "a sphere", diagnostics);
+  const std::optional<Vector3d> center =
+      center_required ? required_vector3(reader, "center") : vector3(reader, "center", Vector3d::Zero());
+  const double radius = reader.required_number("radius", positive);
+  reader.finish();
+  if (!center || std::isnan(radius)) return std::nullopt;
+  return Sphere{*center, radius};
+}
+
+std::optional<Box> read_box(const Node& node, bool center_required, Diagnostics& diagnostics) {
+  Reader reader(node, "a box", diagnostics);
+  const bool by_corners = reader.has("min") || reader.has("max");
+  if (by_corners && (reader.has("center") || reader.has("size"))) {
+    diagnostics.error(node.place, "a box is given by center and size or by min and max, not by both");
+    return std::nullopt;
+  }
+  if (by_corners) {
+    const std::optional<Vector3d> min = required_vector3(reader, "min");
+    const std::optional<Vector3d> max = required_vector3(reader, "max");
+    reader.finish();
+    if (!min || !max) return std::nullopt;
+    for (int axis = 0; axis < 3; ++axis)
+      if ((*min)[axis] >= (*max)[axis]) {
+        diagnostics.error(node.find("max")->place,
+                          fmt::format("the box's max must be greater than its min along {}: {:.6g} is not greater than {:.6g}",
+                                      "xyz"[axis], (*max)[axis], (*min)[axis]));
+        return std::nullopt;
+      }
+    return Box{0.5 * (*min + *max), 0.5 * (*max - *min)};
+  }
+  const std::optional<Vector3d> size = required_vector3(reader, "size", positive);
+  const std::optional<Vector3d> center =
+      center_required ? required_vector3(reader, "center") : vector3(reader, "center", Vector3d::Zero());
+  reader.finish();
+  if (!center || !size) return std::nullopt;
+  return Box{*center, 0.5 * *size};
+}
+
+std::optional<Capsule> read_capsule(const Node& node, Diagnostics& diagnostics) {
+  Reader reader(node, "a capsule", diagnostics);
+  const std::optional<Vector3d> from = required_vector3(reader, "from");
+  const std::optional<Vector3d> to = required_vector3(reader, "to");
+  const double radius = reader.required_number("radius", positive);
+  reader.finish();
+  if (!from || !to || std::isnan(radius)) return std::nullopt;
+  if (*from == *to) {
+    diagnostics.error(node.find("to")->place, "the two ends of a capsule must differ; a capsule without length is a sphere");
+    return std::nullopt;
+  }
+  return Capsule{*from, *to, radius};
+}
+
+std::optional<Mesh> read_mesh(const Node& node, const std::filesystem::path& folder, Diagnostics& diagnostics) {
+  Reader reader(node, "a mesh", diagnostics);
+  const std::optional<std::string> file = required_file(reader, "file", folder);
+  const double scale = reader.number("scale", 1, positive);
+  reader.finish();
+  if (!file) return std::nullopt;
+  return Mesh{*file, scale};
+}
+
+}  // namespace firn::scene::detail

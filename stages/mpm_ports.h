@@ -1,0 +1,71 @@
+#pragma once
+
+// The buffers of the material-point stages, each declared once: type, domain, unit and meaning. A stage takes what it needs.
+
+#include "graph/spec.h"
+
+namespace firn::stages::mpm {
+
+using graph::Access;
+using graph::ElementType;
+using graph::Port;
+using graph::Usage;
+
+// --- particles ---
+Port position(Access access, Usage usage = Usage::storage);
+Port velocity(Access access, Usage usage = Usage::storage);
+Port mass(Access access, Usage usage = Usage::storage);
+Port volume(Access access, Usage usage = Usage::storage);
+Port density(Access access);
+Port elastic(Access access, Usage usage = Usage::storage);
+Port plastic_det(Access access, Usage usage = Usage::storage);
+Port material(Access access, Usage usage = Usage::storage);
+Port stress(Access access, Usage usage = Usage::storage);
+Port velocity_gradient(Access access, Usage usage = Usage::storage);
+
+// --- materials ---
+Port material_elastic(Access access, Usage usage = Usage::storage);
+Port material_plastic(Access access, Usage usage = Usage::storage);
+
+// --- grid ---
+Port grid_mass(Access access, Usage usage = Usage::storage);
+Port grid_velocity(Access access, Usage usage = Usage::storage);
+Port grid_velocity_before(Access access, Usage usage = Usage::storage);
+// The accumulators, once as integers and once as floats; a stage that has them has the parameter `accumulate`.
+std::vector<Port> grid_sums(Access mass_and_momentum, Access force);
+std::vector<Port> grid_mass_and_momentum_sums(Access access);
+std::vector<Port> grid_force_sums(Access access);
+Port stress_max(Access access);
+
+// --- sorted particles, active blocks ---
+Port order(Access access, Usage usage = Usage::storage);
+Port optional_order();  // where sorting has been done, neighbours in space are worked on together
+Port cell_start(Access access, Usage usage = Usage::storage);
+Port active_blocks(Access access);
+Port active_block_count(Access access);
+Port active_groups(Access access, Usage usage = Usage::storage);
+
+// --- rigid bodies ---
+std::vector<Port> bodies(Access access);           // shape, pose, motion, friction
+std::vector<Port> key_frames(Access access);        // of all bodies, one after another
+Port body(const char* name, Access access, Usage usage = Usage::storage);  // one of them
+
+// Only where the choice parameter has this value.
+Port when(Port port, const char* parameter, const char* value);
+
+// Parameters that several stages share.
+graph::ParameterSpec kernel_parameter();
+graph::ParameterSpec accumulate_parameter();
+graph::ParameterSpec nodes_parameter();
+
+// Everything of the lists one after another.
+std::vector<Port> joined(std::initializer_list<std::vector<Port>> lists);
+
+// A dispatch over the nodes of the grid, or over those of the active blocks, by the parameter `nodes`.
+std::vector<graph::Work> over_nodes(const std::string& kernel);
+// The ports that over_nodes needs besides.
+std::vector<Port> node_choice_ports();
+// A dispatch with one invocation per particle and node of its stencil, by the parameter `kernel`.
+std::vector<graph::Work> over_particles_and_nodes(const std::string& kernel);
+
+}  // namespace firn::stages::mpm

@@ -1,0 +1,36 @@
+#pragma once
+
+// A scene made ready for stages: particles sampled, and everything the graph wants to know of it as plain data.
+
+#include <memory>
+
+#include "graph/environment.h"
+#include "scene/sampling.h"
+#include "scene/scene.h"
+
+namespace firn::stages {
+
+struct Image {
+  int width = 1280, height = 720;
+};
+
+struct Problem {
+  scene::Scene scene;
+  scene::Particles particles;
+  Image image;
+  std::string output;  // folder for what stages write; empty: they write nothing
+};
+
+// Throws config::InputError where files of the scene cannot be read.
+std::shared_ptr<const Problem> make_problem(scene::Scene scene, Image image, std::string output);
+
+// Domains: particles, materials, nodes, grid_rows, grid_blocks, bodies, key_frames, image, shadow_map. Constants: see environment.cpp.
+graph::Environment environment(const Problem& problem);
+
+// Bound of all speeds that the scene can bring about, m/s: initial speeds, bodies, and what gravity adds; for fixed-point scales.
+double speed_bound(const scene::Scene& scene);
+
+// The largest stable step of the explicit scheme, s: cfl h / (speed + speed of sound), over all materials.
+double stable_time_step(const scene::Scene& scene);
+
+}  // namespace firn::stages

@@ -1,0 +1,47 @@
+#include "stages/register.h"
+
+#include "stages/bodies/integrate.h"
+#include "stages/bodies/place.h"
+#include "stages/mpm/active_blocks.h"
+#include "stages/mpm/advect.h"
+#include "stages/mpm/clear_grid.h"
+#include "stages/mpm/deform.h"
+#include "stages/mpm/gather_to_grid.h"
+#include "stages/mpm/grid_collide.h"
+#include "stages/mpm/grid_forces.h"
+#include "stages/mpm/grid_to_particles.h"
+#include "stages/mpm/grid_update.h"
+#include "stages/mpm/initial_density.h"
+#include "stages/mpm/particle_collide.h"
+#include "stages/mpm/particles_to_grid.h"
+#include "stages/mpm/seed.h"
+#include "stages/mpm/sort.h"
+#include "stages/mpm/stress.h"
+#include "stages/mpm/time_step.h"
+
+namespace firn::stages {
+
+graph::Registry all_stages(std::shared_ptr<const Problem> problem) {
+  graph::Registry registry;
+  registry.add(bodies::integrate());
+  registry.add(bodies::place(), bodies::placing(problem));
+  registry.add(mpm::active_blocks_stage());
+  registry.add(mpm::advect());
+  registry.add(mpm::clear_grid());
+  registry.add(mpm::deform());
+  registry.add(mpm::gather_to_grid());
+  registry.add(mpm::grid_collide());
+  registry.add(mpm::grid_forces());
+  registry.add(mpm::grid_to_particles());
+  registry.add(mpm::grid_update());
+  registry.add(mpm::initial_density());
+  registry.add(mpm::particle_collide());
+  registry.add(mpm::particles_to_grid());
+  registry.add(mpm::seed(), mpm::seeding(problem));
+  registry.add(mpm::sort());
+  registry.add(mpm::stress());
+  registry.add(mpm::time_step(), mpm::time_stepping(problem));
+  return registry;
+}
+
+}  // namespace firn::stages
