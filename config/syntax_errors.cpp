@@ -32,7 +32,7 @@ std::string unclosed(const TreeBuilder& builder, Node::Kind kind, char opening, 
 
 std::string misplaced(const TreeBuilder& builder, Node::Kind kind, const char* what) {
   const TreeBuilder::Open open = builder.innermost_open(kind, false);
-  return fmt::format("{} that began on line {} expected here; check the indentation, and whether a text needs quotes", what,
+  return fmt::format("only {} begun on line {} can stand here; check the indentation, and whether a text needs quotes", what,
                      open.place.line);
 }
 
@@ -49,7 +49,8 @@ struct Translation {
   const char* text;
 };
 
-constexpr std::array translations = {
+// Not constexpr: the texts are plain constants in yaml-cpp 0.8.
+const std::array translations = {
     Translation{YAML::ErrorMsg::FLOW_END, "this closing bracket does not match the one opened before it, or none is open"},
     Translation{YAML::ErrorMsg::BLOCK_ENTRY, "a '- ' item cannot stand here; begin the list on a line of its own or write [a, b]"},
     Translation{YAML::ErrorMsg::MAP_KEY, "a key cannot stand here; check the indentation"},
@@ -133,9 +134,9 @@ Diagnostic explain(const YAML::Exception& exception, const TreeBuilder& builder,
     // At the end of the text yaml-cpp knows no place.
     if (mark.line == 0 && mark.column == 0) result.place = builder.innermost_open(kind, true).place;
   } else if (is(YAML::ErrorMsg::END_OF_MAP)) {
-    result.text = misplaced(builder, Node::Kind::map, "a 'key: value' of the map");
+    result.text = misplaced(builder, Node::Kind::map, "another 'key: value' of the map");
   } else if (is(YAML::ErrorMsg::END_OF_SEQ)) {
-    result.text = misplaced(builder, Node::Kind::sequence, "a '- ' item of the list");
+    result.text = misplaced(builder, Node::Kind::sequence, "another '- ' item of the list");
   } else if (is(YAML::ErrorMsg::EOF_IN_SCALAR)) {
     result.text = fmt::format("a quoted text that begins on line {} or below is never closed", builder.last_line());
   } else if (is(YAML::ErrorMsg::INVALID_ESCAPE)) {

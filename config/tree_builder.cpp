@@ -23,6 +23,18 @@ bool is_core(const std::string& tag, std::string_view name) {
 
 std::string written(const std::string& tag) { return tag.starts_with(core_prefix) ? "!!" + tag.substr(core_prefix.size()) : tag; }
 
+// yaml-cpp makes a lone byte, which is no UTF-8, of the escapes \N (U+0085) and \_ (U+00A0).
+std::string with_whole_characters(const std::string& value) {
+  std::string result;
+  for (std::size_t at = 0; at < value.size();) {
+    const std::size_t end = character_end(value, at);
+    if (end == 0) result += '\xC2';
+    result.append(value, at, end == 0 ? 1 : end - at);
+    at = end == 0 ? at + 1 : end;
+  }
+  return result;
+}
+
 bool has_value_indicator(std::string_view line) {
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (line[i] == ':' && (i + 1 == line.size() || line[i + 1] == ' ' || line[i + 1] == '\t')) return true;
@@ -69,7 +81,7 @@ void TreeBuilder::OnScalar(const YAML::Mark& mark, const std::string& tag, YAML:
   const bool null = is_core(tag, "null") && std::find(null_words.begin(), null_words.end(), value) != null_words.end();
   Element& element = add(null ? Node::Kind::null : Node::Kind::scalar, mark, anchor);
   if (null) return;
-  element.text = value;
+  element.text = with_whole_characters(value);
   // A text over several lines or '-' in brackets had no quotes, but is nothing else than text either.
   element.quoted = tag == "!" || is_core(tag, "str") || !can_be_plain(value);
   constexpr std::array<const char*, 3> plain = {"int", "float", "bool"};

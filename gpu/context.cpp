@@ -177,13 +177,16 @@ void Context::remember(std::string_view message) {
 }
 
 void Context::check() {
+  bool out_of_memory = false;
   for (GLenum error = glGetError(); error != GL_NO_ERROR; error = glGetError()) {
     if (errors.empty()) remember(error_name(error));  // else the driver has said more already
-    if (error == GL_CONTEXT_LOST) break;              // stays for ever
+    out_of_memory = out_of_memory || error == GL_OUT_OF_MEMORY;
+    if (error == GL_CONTEXT_LOST) break;  // stays for ever
   }
   if (errors.empty()) return;
   const std::string all = fmt::format("OpenGL error {}", fmt::join(errors, "\nOpenGL error "));
   errors.clear();
+  if (out_of_memory) throw DeviceError(all);
   throw DriverError(all);
 }
 
@@ -201,15 +204,12 @@ Context& current() {
 Context* current_or_null() noexcept { return current_context; }
 
 void check_allocation(Context& context, std::string_view what, std::string_view label, std::uint64_t bytes) {
-  const GLenum error = glGetError();
-  if (error == GL_NO_ERROR) return context.check();
-  if (error != GL_OUT_OF_MEMORY) {
-    if (context.errors.empty()) context.remember(error_name(error));
-    return context.check();
+  try {
+    context.check();
+  } catch (const DeviceError&) {
+    throw DeviceError(fmt::format("the device is out of memory: {} '{}' needs {} bytes ({:.1f} MiB), which {} cannot give", what,
+                                  label, bytes, static_cast<double>(bytes) / (1 << 20), context.info.name));
   }
-  context.forget_errors();
-  throw DeviceError(fmt::format("the device is out of memory: {} '{}' needs {} bytes ({:.1f} MiB), which {} cannot give", what,
-                                label, bytes, static_cast<double>(bytes) / (1 << 20), context.info.name));
 }
 
 void name_object(GLenum kind, GLuint id, std::string_view label) {

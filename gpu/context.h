@@ -21,7 +21,7 @@ struct Context {
   Context& operator=(const Context&) = delete;
 
   void make_current();
-  void check();          // throws DriverError
+  void check();          // throws DriverError, or DeviceError where memory ran out
   void forget_errors();  // those already told in another way
   void remember(std::string_view message);
 
@@ -40,7 +40,7 @@ Context& current();
 // For destructors: with the context gone its objects are gone, and there is nothing to delete.
 Context* current_or_null() noexcept;
 
-// GL_OUT_OF_MEMORY is the device's limit and not a mistake: DeviceError "`what` 'label' of N bytes ...". Else as check().
+// As check(), where memory ran out with name and size of what was to be made.
 void check_allocation(Context& context, std::string_view what, std::string_view label, std::uint64_t bytes);
 
 // glObjectLabel, cut to the length that the driver takes.

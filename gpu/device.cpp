@@ -72,6 +72,7 @@ std::unique_ptr<Device> Device::open(const std::string& choice) {
   std::unique_ptr<Device> software;
   std::string tried;
   for (const EglPlace& place : places) {
+    if (choice == "auto" && software && place.says_software) continue;
     try {
       std::unique_ptr<Device> device = opened(place);
       const std::string problem = mismatch(device->info(), choice);

@@ -74,7 +74,8 @@ class Device {
   // Names what runs from now on, for driver errors. Cheap: the pointer is kept, so it must outlive the work.
   void label(const char* text);
 
-  // Throws DriverError where the driver reported an error since the last call. Every gpu/ call that can fail does this itself.
+  // Throws DriverError where the driver reported an error since the last call (DeviceError where it ran out of memory). Every gpu/
+  // call that can fail does this itself.
   void check() const;
 
   void finish();

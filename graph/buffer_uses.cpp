@@ -29,7 +29,7 @@ void check_order(const PlannedBuffer& buffer, const std::vector<BufferUse>& uses
     diagnostics.error(buffer.place, fmt::format("{} reads '{}', which no stage of this pipeline writes{}", first.label, buffer.name,
                                                 writers.empty() ? "; bind the port to another buffer, or add a stage that writes it"
                                                                 : fmt::format("; {} would", fmt::join(writers, " or "))));
-  } else if (first.access == Access::read) {
+  } else if (first.port_access == Access::read) {
     diagnostics.warning(buffer.place, fmt::format("{} reads '{}' before any stage has written it: at first it reads zeros",
                                                   first.label, buffer.name));
   }
@@ -50,7 +50,7 @@ void check_image(const std::string& buffer, const std::vector<BufferUse>& uses, 
 void check_buffers(const Plan& plan, const BufferUses& uses, const Registry& registry, config::Diagnostics& diagnostics) {
   for (const auto& [index, of_buffer] : uses) {
     const PlannedBuffer& buffer = plan.buffers[static_cast<std::size_t>(index)];
-    check_order(buffer, of_buffer, registry, diagnostics);
+    if (!plan.environment.provided.contains(buffer.name)) check_order(buffer, of_buffer, registry, diagnostics);
     if (buffer.texture) check_image(buffer.name, of_buffer, diagnostics);
   }
 }

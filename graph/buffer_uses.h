@@ -16,7 +16,8 @@ namespace firn::graph {
 struct BufferUse {
   Place place;
   std::string label;
-  Access access = Access::read;
+  Access access = Access::read;       // of this piece of work
+  Access port_access = Access::read;  // of the stage as a whole: it may mean to read what it left there in the step before
   Usage usage = Usage::storage;
   bool in_step = false;
   bool in_every_step = false;

@@ -89,7 +89,7 @@ class Compiler {
     if (watched.type != ElementType::float1 || watched.count != 1)
       diagnostics_.error(until.place, fmt::format("until needs a buffer of one float; '{}' is {} x {}", until.buffer, watched.count,
                                                   name(watched.type)));
-    uses_[buffer].push_back({until.place, "until", Access::read, Usage::transfer, in_step, in_step});
+    uses_[buffer].push_back({until.place, "until", Access::read, Access::read, Usage::transfer, in_step, in_step});
     planned.until = PlannedUntil{buffer, until.below};
   }
 
@@ -273,7 +273,7 @@ class Compiler {
                           "them to two buffers",
                           stage.label, other->second.first, port.name, plan_.buffers[static_cast<std::size_t>(buffer)].name));
         run.accesses.push_back({buffer, used.access, used.usage});
-        uses_[buffer].push_back({stage.place, stage.label, used.access, used.usage, in_step, in_step && stage.every == 1});
+        uses_[buffer].push_back({stage.place, stage.label, used.access, port.access, used.usage, in_step, in_step && stage.every == 1});
       }
       ops.push_back({std::move(run)});
     }

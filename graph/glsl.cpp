@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <set>
 
@@ -35,7 +36,9 @@ std::vector<Member> block_members(const Plan& plan, const PlannedStage& stage) {
   for (const Port& port : stage.spec.ports)
     if (const std::string base = base_domain(port.domain); !base.empty()) domains.insert(base);
   for (const std::string& domain : domains) {
-    const DomainSize& size = plan.environment.domains.at(domain);
+    const auto known = plan.environment.domains.find(domain);
+    if (known == plan.environment.domains.end()) continue;  // of optional ports that are not bound
+    const DomainSize& size = known->second;
     members.push_back({ElementType::uint1, domain + "_count", static_cast<std::int64_t>(size.count)});
     if (size.width > 0) {
       members.push_back({ElementType::int1, domain + "_width", static_cast<std::int64_t>(size.width)});
@@ -88,8 +91,8 @@ std::string_view swizzle(ElementType type) {
 }
 
 std::string sampled_declaration(const Port& port, const PlannedBuffer& buffer, int unit) {
-  if (buffer.texture) return fmt::format("layout(binding = {}) uniform sampler2D {};\n", unit, port.name);
   const std::string prefix = texel_prefix(port.type);
+  if (buffer.texture) return fmt::format("layout(binding = {}) uniform {}sampler2D {};\n", unit, prefix, port.name);
   std::string text = fmt::format("layout(binding = {}) uniform {}samplerBuffer {}_texels;\n", unit, prefix, port.name);
   if (port.type == ElementType::mat3)
     return text + fmt::format(
@@ -119,10 +122,19 @@ std::string uniform_declaration(const Port& port, const PlannedBuffer& buffer, i
                      port.name, extent);
 }
 
+// The formats that textures of these types have on the device; vec3 is padded to four floats there too.
+std::string image_format(ElementType type) {
+  if (type == ElementType::rgba8) return "rgba8";
+  const int channels = components(type) == 3 ? 4 : components(type);
+  constexpr std::array<std::string_view, 5> letters{"", "r", "rg", "rgb", "rgba"};
+  const std::string kind = scalar(type) == Scalar::real ? "f" : texel_prefix(type) == "u" ? "ui" : "i";
+  return fmt::format("{}32{}", letters.at(static_cast<std::size_t>(channels)), kind);
+}
+
 std::string image_declaration(const Port& port, Access access, int unit) {
-  const std::string_view format = port.type == ElementType::rgba8 ? "rgba8" : port.type == ElementType::vec4 ? "rgba32f" : "r32f";
   const std::string_view qualifier = access == Access::read ? "readonly " : access == Access::write ? "writeonly " : "";
-  return fmt::format("layout({}, binding = {}) {}uniform image2D {};\n", format, unit, qualifier, port.name);
+  return fmt::format("layout({}, binding = {}) {}uniform {}image2D {};\n", image_format(port.type), unit, qualifier,
+                     texel_prefix(port.type), port.name);
 }
 
 std::string fault_declarations(int binding, int stage) {
@@ -168,8 +180,11 @@ std::vector<UsedPort> used_ports(const PlannedStage& stage, const Work& work) {
     for (int p = 0; p < static_cast<int>(stage.spec.ports.size()); ++p) {
       const Port& port = stage.spec.ports[static_cast<std::size_t>(p)];
       if (port.name != name || stage.buffers[static_cast<std::size_t>(p)] < 0) continue;
-      if (std::ranges::none_of(used, [&](const UsedPort& u) { return u.port == p; }))
-        used.push_back({p, access.value_or(port.access), usage.value_or(port.usage)});
+      const UsedPort use{p, access.value_or(port.access), usage.value_or(port.usage)};
+      // A kernel may read the buffer of its own group counts in other ways as well.
+      const bool again = usage == Usage::indirect;
+      if (std::ranges::none_of(used, [&](const UsedPort& u) { return u.port == p && (!again || u.usage == use.usage); }))
+        used.push_back(use);
     }
   };
   const std::vector<PortUse>& uses = std::visit([](const auto& w) -> const std::vector<PortUse>& { return w.uses; }, work);
@@ -194,7 +209,6 @@ KernelInterface kernel_interface(const Plan& plan, int stage_index, int work_ind
 
   int texture_units = 0, image_units = 0, uniform_blocks = first_uniform_binding;
   const auto* draw = std::get_if<Draw>(&work);
-  int color = 0;
   for (const UsedPort& used : used_ports(stage, work)) {
     const Port& port = stage.spec.ports[static_cast<std::size_t>(used.port)];
     const PlannedBuffer& buffer = plan.buffers[static_cast<std::size_t>(stage.buffers[static_cast<std::size_t>(used.port)])];
@@ -217,8 +231,10 @@ KernelInterface kernel_interface(const Plan& plan, int stage_index, int work_ind
         text += image_declaration(port, used.access, binding.binding);
         break;
       case Usage::framebuffer:
-        if (draw && draw->depth != port.name)
-          text += fmt::format("#ifdef FIRN_FRAGMENT\nlayout(location = {}) out vec4 {};\n#endif\n", color++, port.name);
+        if (draw == nullptr) break;
+        if (const auto color = std::ranges::find(draw->colors, port.name); color != draw->colors.end())
+          text += fmt::format("#ifdef FIRN_FRAGMENT\nlayout(location = {}) out vec4 {};\n#endif\n", color - draw->colors.begin(),
+                              port.name);
         break;
       case Usage::vertex:
       case Usage::indirect:

@@ -10,9 +10,9 @@
 //   sizes           uint <domain>_count for every domain that a port of the stage names
 //   storage ports   arrays by name: position[i]. `accumulate` ports are arrays of their scalars, padding included: component c of element i of
 //                   a vec3 is name[4 * i + c]. #include "lib/accumulate.glsl" adds to them; FIRN_FLOAT_ATOMICS says whether the device adds floats
-//   sampled ports   of buffers: <name>_at(int index); of textures: sampler2D <name>
+//   sampled ports   of buffers: <name>_at(int index); of textures: sampler2D <name> (isampler2D, usampler2D of whole numbers)
 //   uniform ports   by name; arrays where the count is above 1
-//   image ports     image2D <name>
+//   image ports     image2D <name> (iimage2D, uimage2D)
 //   optional ports  #define HAS_<PORT> 0 or 1
 //   faults          fault(FAULT_NOT_A_NUMBER | FAULT_OVERFLOW | FAULT_LEFT_DOMAIN)
 //   uint element_index()  number of this invocation; may exceed the domain: compare with the count

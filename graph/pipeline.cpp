@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <set>
 
 #include "config/nearest.h"
@@ -260,12 +259,12 @@ std::vector<std::string> labels(PipelineSpec& pipeline) {
 }
 
 void make_labels_unique(PipelineSpec& pipeline, Diagnostics& diagnostics) {
-  std::map<std::string, int> seen;
+  std::set<std::string> taken;
   each_use(pipeline, [&](StageUse& use) {
-    const int number = ++seen[use.label];
-    if (number == 1) return;
-    if (use.label != use.stage) diagnostics.error(use.place, fmt::format("two stages are called '{}'", use.label));
-    use.label += "#" + std::to_string(number);
+    const std::string wanted = use.label;
+    if (wanted != use.stage && taken.contains(wanted))
+      diagnostics.error(use.place, fmt::format("two stages are called '{}'", wanted));
+    for (int number = 2; !taken.insert(use.label).second; ++number) use.label = fmt::format("{}#{}", wanted, number);
   });
 }
 
@@ -300,7 +299,7 @@ void set_parameters(Node& root, const Edits& edits, PipelineSpec& pipeline, Diag
       diagnostics.error(given->place, fmt::format("parameters must be a map of names to values, not {}", describe(*given)));
   }
   for (const config::Override& change : edits.set) {
-    if (change.path.size() != 1) continue;
+    if (change.path.size() != 1 || change.path[0] == "scene") continue;
     if (Node* value = parameters.find(change.path[0])) {
       *value = change.value;
       value->place = change.place;

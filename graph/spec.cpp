@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <initializer_list>
 #include <set>
 
 namespace firn::graph {
@@ -14,22 +15,24 @@ bool is_name(std::string_view text) {
 }
 
 // Names that a use of a stage in a pipeline gives a meaning of its own (pipeline.cpp).
-const std::set<std::string> reserved{"bind", "every", "enable", "as", "stage", "when", "dt", "time", "step", "frame"};
+const std::set<std::string> reserved{"bind", "every", "enable", "as", "stage", "when"};
+// Names that every kernel has (glsl.h).
+const std::set<std::string> clock_names{"dt", "time", "step", "frame"};
 
 void check_parameter(const ParameterSpec& parameter, std::vector<std::string>& found) {
   const auto wrong = [&](std::string_view text) { found.push_back(fmt::format("parameter {}: {}", parameter.name, text)); };
   if (!is_name(parameter.name)) wrong("its name may hold a-z, 0-9 and _");
-  if (reserved.contains(parameter.name)) wrong("its name is reserved");
+  if (reserved.contains(parameter.name) || clock_names.contains(parameter.name)) wrong("its name is reserved");
   if (parameter.doc.empty()) wrong("has no doc");
   const Value& value = parameter.initial;
+  const auto in_range = [&](double number) { return number >= parameter.min && number <= parameter.max; };  // NaN is not
   switch (parameter.kind) {
     case ParameterKind::number:
-      if (const auto* number = std::get_if<double>(&value); !number || *number < parameter.min || *number > parameter.max)
+      if (const auto* number = std::get_if<double>(&value); !number || !in_range(*number))
         wrong("its default is no number in its range");
       break;
     case ParameterKind::integer:
-      if (const auto* number = std::get_if<std::int64_t>(&value);
-          !number || static_cast<double>(*number) < parameter.min || static_cast<double>(*number) > parameter.max)
+      if (const auto* number = std::get_if<std::int64_t>(&value); !number || !in_range(static_cast<double>(*number)))
         wrong("its default is no whole number in its range");
       break;
     case ParameterKind::boolean:
@@ -40,12 +43,37 @@ void check_parameter(const ParameterSpec& parameter, std::vector<std::string>& f
         wrong("its default is none of its choices");
       break;
     case ParameterKind::vector3:
-      if (!std::holds_alternative<Vector3>(value)) wrong("its default is no vector");
+      if (const auto* vector = std::get_if<Vector3>(&value); !vector || !std::ranges::all_of(*vector, in_range))
+        wrong("its default is no vector in its range");
       break;
     case ParameterKind::path:
       if (!std::holds_alternative<std::string>(value)) wrong("its default is no text");
       break;
   }
+}
+
+bool is_one_of(ElementType type, std::initializer_list<ElementType> types) { return std::ranges::find(types, type) != types.end(); }
+
+// Whether OpenGL can have the port's elements in this way.
+void check_usage(const Port& port, Usage usage, std::vector<std::string>& found) {
+  using enum ElementType;
+  const auto wrong = [&](std::string_view text) {
+    found.push_back(fmt::format("port {}: {} {}", port.name, name(port.type), text));
+  };
+  const bool in_block = usage == Usage::storage || usage == Usage::uniform || usage == Usage::vertex || usage == Usage::indirect;
+  if (is_texel(port.type) && in_block) wrong("is only in textures");
+  if (usage == Usage::uniform && port.domain != "1" && stride(port.type) % 16 != 0)
+    wrong("cannot be an array with usage uniform, whose elements fill 16 bytes");
+  if (usage == Usage::image && !is_one_of(port.type, {float1, vec2, vec3, vec4, int1, uint1, rgba8})) wrong("cannot be an image");
+  if (usage == Usage::framebuffer && !is_one_of(port.type, {float1, vec2, vec3, vec4, rgba8, depth})) wrong("cannot be drawn to");
+}
+
+// Conditions on the stage's own choices; others are the environment's.
+void check_condition(const Condition& condition, const StageSpec& spec, std::vector<std::string>& found) {
+  const auto parameter = std::ranges::find(spec.parameters, condition.name, &ParameterSpec::name);
+  if (parameter == spec.parameters.end() || parameter->kind != ParameterKind::choice) return;
+  if (std::ranges::find(parameter->choices, condition.value) == parameter->choices.end())
+    found.push_back(fmt::format("condition {} = {}: never holds", condition.name, condition.value));
 }
 
 }  // namespace
@@ -73,11 +101,14 @@ std::vector<std::string> problems(const StageSpec& spec) {
   for (const Port& port : spec.ports) {
     ports.insert(port.name);
     if (!is_name(port.name)) found.push_back(fmt::format("port {}: its name may hold a-z, 0-9 and _", port.name));
+    if (clock_names.contains(port.name)) found.push_back(fmt::format("port {}: its name is reserved", port.name));
     if (port.doc.empty()) found.push_back(fmt::format("port {}: has no doc", port.name));
     if (port.domain.empty()) found.push_back(fmt::format("port {}: has no domain", port.name));
     if (port.unit.empty()) found.push_back(fmt::format("port {}: has no unit", port.name));
     if (!keys.insert(port.name + "/" + port.when.name + "=" + port.when.value).second)
       found.push_back(fmt::format("port {}: declared twice", port.name));
+    check_usage(port, port.usage, found);
+    check_condition(port.when, spec, found);
   }
   std::set<std::string> parameters;
   for (const ParameterSpec& parameter : spec.parameters) {
@@ -92,7 +123,12 @@ std::vector<std::string> problems(const StageSpec& spec) {
   for (const Work& work : spec.work) {
     std::visit(
         [&](const auto& w) {
-          for (const PortUse& use : w.uses) need_port(use.port);
+          check_condition(w.when, spec, found);
+          for (const PortUse& use : w.uses) {
+            need_port(use.port);
+            for (const Port& port : spec.ports)
+              if (port.name == use.port && use.usage && *use.usage != port.usage) check_usage(port, *use.usage, found);
+          }
         },
         work);
     if (const auto* dispatch = std::get_if<Dispatch>(&work)) {

@@ -2,6 +2,8 @@
 
 #include "stages/bodies/integrate.h"
 #include "stages/bodies/place.h"
+#include "stages/io/frames.h"
+#include "stages/io/video.h"
 #include "stages/mpm/active_blocks.h"
 #include "stages/mpm/advect.h"
 #include "stages/mpm/clear_grid.h"
@@ -18,6 +20,9 @@
 #include "stages/mpm/sort.h"
 #include "stages/mpm/stress.h"
 #include "stages/mpm/time_step.h"
+#include "stages/render/background.h"
+#include "stages/render/particles.h"
+#include "stages/render/shadow_map.h"
 
 namespace firn::stages {
 
@@ -25,6 +30,8 @@ graph::Registry all_stages(std::shared_ptr<const Problem> problem) {
   graph::Registry registry;
   registry.add(bodies::integrate());
   registry.add(bodies::place(), bodies::placing(problem));
+  registry.add(io::frames(), io::writing_frames(problem));
+  registry.add(io::video(), io::writing_video(problem));
   registry.add(mpm::active_blocks_stage());
   registry.add(mpm::advect());
   registry.add(mpm::clear_grid());
@@ -41,6 +48,9 @@ graph::Registry all_stages(std::shared_ptr<const Problem> problem) {
   registry.add(mpm::sort());
   registry.add(mpm::stress());
   registry.add(mpm::time_step(), mpm::time_stepping(problem));
+  registry.add(render::background());
+  registry.add(render::particles(), render::coloring(problem));
+  registry.add(render::shadow_map());
   return registry;
 }
 

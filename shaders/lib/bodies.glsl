@@ -38,7 +38,7 @@ vec3 body_velocity_at(int b, vec3 x) { return body_velocity[b] + cross(body_spin
 vec3 collided(vec3 v, vec3 x) {
   for (int b = 0; b < int(bodies_count); ++b) {
     vec4 surface = body_surface(b, x);
-    if (surface.w >= 0.0) continue;
+    if (surface.w > 0.0) continue;
     vec3 n = surface.xyz;
     vec3 carried = body_velocity_at(b, x);
     vec3 relative = v - carried;

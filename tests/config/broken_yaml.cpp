@@ -45,12 +45,12 @@ const std::vector<Broken> broken = {
     {"a: 1\nb", "2:1", "':' is missing after the key 'b'"},
     {"m:\n  a: 1\n  b:2\n", "3:3", "a space is missing after ':' in 'b:2'"},
     {"a: - 1", "1:4", "a '- ' item cannot stand here"},
-    {"a: 1\n- b", "2:1", "a 'key: value' of the map that began on line 1 expected here"},
-    {"a:\n   b: 1\n  c: 2", "3:3", "a 'key: value' of the map that began on line 1"},
+    {"a: 1\n- b", "2:1", "only another 'key: value' of the map begun on line 1 can stand here"},
+    {"a:\n   b: 1\n  c: 2", "3:3", "only another 'key: value' of the map begun on line 1"},
     {"a: \"b\" c", "1:8", "whether a text needs quotes"},
     {"a: 'it's'", "1:8", "whether a text needs quotes"},
-    {"- - a\n - b\n  c: 1", "2:2", "a '- ' item of the list that began on line 1"},
-    {"- - - a: b\n c", "2:2", "a '- ' item of the list that began on line 1"},
+    {"- - a\n - b\n  c: 1", "2:2", "only another '- ' item of the list begun on line 1"},
+    {"- - - a: b\n c", "2:2", "only another '- ' item of the list begun on line 1"},
     {"a: 'x", "1:6", "is never closed"},
     {"b: 1\na: \"x\nc: 1\n", "2:4", "the text that begins with this quote is never closed"},
     {"a: &n !!str 'it''s\n\n", "1:13", "the text that begins with this quote is never closed"},
@@ -152,7 +152,7 @@ TEST_CASE("texts that nest without end are errors, soon") {
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     CHECK(errors.size() == 1);
     if (!errors.empty()) CHECK(contains(errors[0], "nested more than 100 deep"));
-    CHECK(seconds.count() < 5);
+    CHECK(seconds.count() < 20);  // what takes time with the square of the length takes minutes
   }
   std::string text;
   for (int i = 0; i < 2000; ++i) text += std::string(i, ' ') + "a:\n";
@@ -170,7 +170,7 @@ TEST_CASE("one character over and over neither crashes nor hangs") {
     const auto start = std::chrono::steady_clock::now();
     errors_of(text);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    CHECK(seconds.count() < 5);
+    CHECK(seconds.count() < 20);  // what takes time with the square of the length takes minutes
   }
 }
 

@@ -90,6 +90,12 @@ TEST_CASE("quotes, block texts, texts of several lines and !!str are text, not n
   CHECK(root.find("h")->quoted);
 }
 
+TEST_CASE("escapes in double quotes become characters in UTF-8") {
+  CHECK(parse_good("\"\\t\\x41\\xe9\\u96ea\\U0001F328\"").scalar == "\tAé雪🌨");
+  CHECK(parse_good("\"é\\_\\N\\L\"").scalar == "é\xC2\xA0\xC2\x85\xE2\x80\xA8");
+  CHECK(parse_good("\"a\\0b\"").scalar == std::string("a\0b", 3));
+}
+
 TEST_CASE("an alias copies what its anchor names, places included") {
   const Node root = parse_good("a: &snow {density: 400}\nb: *snow\nc: [*snow, &n 5, *n]\n");
   REQUIRE(root.find("b")->kind == Node::Kind::map);

@@ -81,7 +81,7 @@ inline bool contains(const std::string& text, const std::string& part) {
 // What the test cases with this tag print in a process of its own, in this environment: drivers read variables once.
 inline std::string output_of_own_process(const std::string& environment, const std::string& tag) {
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
-  const std::string command = environment + " '" + self + "' '" + tag + "'";
+  const std::string command = environment + " '" + self + "' '" + tag + "' 2>&1";
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
   REQUIRE(pipe);
   std::string output;

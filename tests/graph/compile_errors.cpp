@@ -119,7 +119,7 @@ TEST_CASE("a buffer that nobody writes is an error at its first reader, with the
         "p.yaml:3:5: error: demo.look reads 'x', which no stage of this pipeline writes; demo.extra or demo.fill or demo.move "
         "or demo.needy or demo.tuned would");
   CHECK(messages("firn: 1\nsetup: [demo.fill]\nstep: [demo.move, {demo.look: {bind: {x: other}}}]\nframe: [demo.look]\n") ==
-        Lines{"p.yaml:3:20: error: demo.look reads 'other', which no stage of this pipeline writes; bind the port to another "
+        Lines{"p.yaml:3:39: error: demo.look reads 'other', which no stage of this pipeline writes; bind the port to another "
               "buffer, or add "
               "a stage that writes it"});
 }

@@ -235,7 +235,8 @@ TEST_CASE("a field that cannot be is an error") {
 TEST_CASE("a field's image of densities may not be whiter than its material is dense") {
   const TemporaryFolder folder;
   folder.write("a.png", "an image");
-  check_bad({"white", "density: 120", "density: {image: a.png, density: 151}", "{image", "151 kg/m3 at white"}, folder / "scene.yaml");
+  check_bad({"white", "density: 120", "density: {image: a.png, density: 151}", "{image", "151 kg/m3 at white"},
+            folder / "scene.yaml");
 }
 
 TEST_CASE("a field that takes its material's density is checked like any other") {

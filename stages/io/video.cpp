@@ -1,0 +1,157 @@
+#include "stages/io/video.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <stdexcept>
+
+#include "stages/png.h"
+#include "stages/process.h"
+#include "stages/view_ports.h"
+
+namespace firn::stages::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Whether this ffmpeg has libx264: some distributions leave it out.
+bool has_x264(const fs::path& ffmpeg, const fs::path& scratch) {
+  Process(ffmpeg, {"-hide_banner", "-encoders"}, scratch, "").finish();
+  std::ifstream stream(scratch);
+  const std::string list((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  std::error_code error;
+  fs::remove(scratch, error);
+  return list.find("libx264 ") != std::string::npos;
+}
+
+class Video final : public graph::HostStage {
+ public:
+  Video(std::shared_ptr<const Problem> problem, int loss) : problem_(std::move(problem)), loss_(loss), folder_(problem_->output) {}
+
+  // A run that ended in an error leaves the film up to there.
+  ~Video() override {
+    if (!encoder_) return;
+    try {
+      finish();
+    } catch (const std::exception& error) {
+      spdlog::warn("{}", error.what());
+    }
+  }
+  Video(const Video&) = delete;
+  Video& operator=(const Video&) = delete;
+
+  void run(graph::HostContext& context) override {
+    if (folder_.empty() || without_ffmpeg_) return;
+    const graph::PortView view = context.view("image");
+    if (!encoder_) start(view.width, view.height);
+    if (!encoder_) return;
+    const Picture picture = picture_of(context.read("image"), view.width, view.height);
+    if (!encoder_->feed(std::as_bytes(std::span(picture.rgb)))) fail(encoder_->finish());
+  }
+
+  void finish() override {
+    if (!encoder_) return;
+    const int status = encoder_->finish();
+    if (status != 0) fail(status);
+    encoder_.reset();
+    std::error_code error;
+    fs::rename(part(), file(), error);
+    if (error) throw std::runtime_error(fmt::format("cannot write {}: {}", file().string(), error.message()));
+    if (fs::is_empty(log(), error) && !error) fs::remove(log(), error);
+  }
+
+ private:
+  [[nodiscard]] fs::path file() const { return folder_ / "video.mp4"; }
+  [[nodiscard]] fs::path part() const { return folder_ / "video.part.mp4"; }
+  [[nodiscard]] fs::path log() const { return folder_ / "ffmpeg.log"; }
+
+  void start(int width, int height) {
+    const fs::path ffmpeg = find_program("ffmpeg");
+    without_ffmpeg_ = ffmpeg.empty();
+    if (without_ffmpeg_) {
+      spdlog::warn("no video: the program ffmpeg is not in PATH; the pictures of io.frames can be put together later");
+      return;
+    }
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (error) throw std::runtime_error(fmt::format("cannot make the folder {}: {}", folder_.string(), error.message()));
+    fs::remove(log(), error);
+
+    // H.264 with halved chroma needs even sizes. Colours: HD players expect BT.709.
+    std::vector<std::string> arguments{"-hide_banner",
+                                       "-loglevel",
+                                       "warning",
+                                       "-nostats",
+                                       "-y",
+                                       "-f",
+                                       "rawvideo",
+                                       "-pix_fmt",
+                                       "rgb24",
+                                       "-video_size",
+                                       fmt::format("{}x{}", width, height),
+                                       "-framerate",
+                                       fmt::format("{}", problem_->scene.time.fps),
+                                       "-i",
+                                       "pipe:0",
+                                       "-vf",
+                                       "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv",
+                                       "-pix_fmt",
+                                       "yuv420p",
+                                       "-colorspace",
+                                       "bt709",
+                                       "-color_primaries",
+                                       "bt709",
+                                       "-color_trc",
+                                       "bt709"};
+    if (has_x264(ffmpeg, folder_ / "encoders.txt"))
+      for (const std::string& word : {std::string("-c:v"), std::string("libx264"), std::string("-crf"), fmt::format("{}", loss_)})
+        arguments.push_back(word);
+    for (const std::string& word : {std::string("-movflags"), std::string("+faststart"), part().string()})
+      arguments.push_back(word);
+    encoder_.emplace(ffmpeg, arguments, "", log());
+  }
+
+  [[noreturn]] void fail(int status) {
+    encoder_.reset();
+    std::error_code error;
+    fs::remove(part(), error);
+    throw std::runtime_error(fmt::format("cannot write {}: ffmpeg {} {}; what it said is in {}", file().string(),
+                                         status < 0 ? "was ended by signal" : "ended with status", std::abs(status),
+                                         log().string()));
+  }
+
+  std::shared_ptr<const Problem> problem_;
+  int loss_;
+  fs::path folder_;
+  bool without_ffmpeg_ = false;
+  std::optional<Process> encoder_;
+};
+
+}  // namespace
+
+graph::StageSpec video() {
+  return {.name = "io.video",
+          .doc = "All pictures as video.mp4 in the output folder, by the program ffmpeg; without it, a message",
+          .equation = "",
+          .ports = {view::image(graph::Access::read, graph::Usage::host)},
+          .parameters = {{.name = "loss",
+                          .kind = graph::ParameterKind::integer,
+                          .initial = std::int64_t{18},
+                          .min = 0,
+                          .max = 51,
+                          .unit = "1",
+                          .doc = "the CRF of x264: 0 loses nothing, 18 nothing that one sees, 51 nearly everything"}},
+          .work = {graph::HostWork{}}};
+}
+
+graph::HostFactory writing_video(std::shared_ptr<const Problem> problem) {
+  return [problem = std::move(problem)](const graph::ParameterValues& parameters) {
+    return std::make_unique<Video>(problem, static_cast<int>(std::get<std::int64_t>(parameters.at("loss"))));
+  };
+}
+
+}  // namespace firn::stages::io
