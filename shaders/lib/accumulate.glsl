@@ -1,18 +1,28 @@
 // Adding to `accumulate` ports, which many invocations do at once. Two ways (ACCUMULATE_FIXED, ACCUMULATE_FLOAT):
-//   fixed  integers of value * scale, rounded: the order does not matter, so results repeat to the bit. An overflow is a fault.
+//   fixed  integers of value * scale: the order does not matter, so results repeat to the bit. An overflow is a fault.
 //   float  float atomics where the device has them, else a compare-and-swap loop. The last bits depend on the order.
 // Macros, since GLSL functions cannot take buffers.
 
 #if ACCUMULATE_FIXED
 
-// Rounded, held within what an int has; a NaN counts as overflow.
-int fixed_point(float value, float scale) {
-  float scaled = round(value * scale);
-  if (!(abs(scaled) < 2147483648.0)) {
+// A number in [0, 1) that depends on its arguments only (Jarzynski and Olano 2020: PCG).
+float dither(uint a, uint b, uint c) {
+  uint state = (a ^ (b * 2654435769u)) + c * 2246822519u;
+  state = state * 747796405u + 2891336453u;
+  uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+  return float(((word >> 22u) ^ word) >> 8u) / 16777216.0;
+}
+
+// Rounded up or down by a repeatable throw of the dice, so that sums are right on average: to the nearest, the many contributions below half
+// a step would all be lost, and with them momentum. Held within what an int has; a NaN counts as overflow.
+int fixed_point(float value, float scale, int index) {
+  float scaled = value * scale;
+  if (!(abs(scaled) < 2147483520.0)) {
     fault(FAULT_OVERFLOW);
     return 0;
   }
-  return int(scaled);
+  float whole = floor(scaled);
+  return int(whole) + (dither(floatBitsToUint(value), uint(index), step) < scaled - whole ? 1 : 0);
 }
 
 void check_sum(int before, int added) {
@@ -22,7 +32,7 @@ void check_sum(int before, int added) {
 
 #define ACCUMULATE(name, index, value, scale)           \
   {                                                     \
-    int added_ = fixed_point(value, scale);             \
+    int added_ = fixed_point(value, scale, index);      \
     check_sum(atomicAdd(name[index], added_), added_);  \
   }
 

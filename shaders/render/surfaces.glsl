@@ -86,6 +86,13 @@ vec3 surface_color(vec3 x, vec3 ray, Hit hit) {
 }
 
 #if WALLS_GLASS
+// Where walls meet, they end.
+bool behind_another(int wall, vec3 x) {
+  for (int b = 0; b < int(bodies_count); ++b)
+    if (b != wall && body_kind_at(b) == 0 && turned_back(body_orientation_at(b), x - body_position_at(b)).y < 0.0) return true;
+  return false;
+}
+
 // Walls and ceilings as panes with a faint metre grid, as far as the scene's box reaches.
 vec3 through_panes(vec3 color, vec3 ray, float nearest) {
   for (int b = 0; b < int(bodies_count); ++b) {
@@ -96,10 +103,10 @@ vec3 through_panes(vec3 color, vec3 ray, float nearest) {
     float t = half_space_distance(camera_from, ray, body_position_at(b), normal);
     if (t >= nearest) continue;
     vec3 x = camera_from + t * ray;
-    if (any(lessThan(x, scene_min - 1.0e-3)) || any(greaterThan(x, scene_max + 1.0e-3))) continue;
+    if (any(lessThan(x, scene_min - 1.0e-3)) || any(greaterThan(x, scene_max + 1.0e-3)) || behind_another(b, x)) continue;
     vec3 local = turned_back(turn, x - body_position_at(b));
     float pixel = pixel_angle() * t / max(abs(dot(ray, normal)), 0.02);
-    color = mix(color, vec3(0.9, 0.95, 1.0), glass_tint + 0.5 * ruler * ruler_lines(local.xz, pixel));
+    color = mix(color, vec3(0.9, 0.95, 1.0), glass_tint + 0.35 * ruler * ruler_lines(local.xz, pixel));
   }
   return color;
 }

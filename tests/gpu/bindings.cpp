@@ -1,5 +1,7 @@
 #include "gpu/bindings.h"
 
+#include <dlfcn.h>
+
 #include "tests/gpu/support.h"
 
 using namespace firn::gpu;
@@ -132,16 +134,50 @@ TEST_CASE("what is deleted is forgotten at every point it was bound to, and noth
   CHECK(bindings.framebuffer == 0);
 }
 
-TEST_CASE("forgotten bindings are made again") {
+TEST_CASE("a texture unit that the driver refuses leaves the others as they were") {
+  const auto device = Device::open();
+  const Buffer first = buffer_of<std::uint32_t>({1, 0, 0, 0}), second = buffer_of<std::uint32_t>({2, 0, 0, 0}),
+               output(16, "output");
+  const BufferTexture kept(first, TexelFormat::r32ui, "kept"), refused(second, TexelFormat::r32ui, "refused");
+  const Program program = kernel(*device, R"(
+    layout(local_size_x = 1) in;
+    layout(binding = 2) uniform usamplerBuffer data;
+    layout(std430, binding = 0) buffer Output { uint value; };
+    void main() { value = texelFetch(data, 0).x; })");
+  use(program);
+  bind_storage(0, output);
+  bind_texture(2, kept);
+  CHECK_THROWS_AS(bind_texture(1u << 20, refused), DriverError);
+  dispatch(1, 1, 1);
+  CHECK(contents<std::uint32_t>(output)[0] == 1);
+}
+
+TEST_CASE("a deleted program runs no more") {
+  const auto device = Device::open();
+  const Buffer buffer(16, "buffer");
+  bind_storage(0, buffer);
+  use(kernel(*device, adds_one));
+  CHECK_THROWS_AS(dispatch(1, 1, 1), DriverError);
+}
+
+TEST_CASE("bindings changed by others are made again once they are forgotten") {
   const auto device = Device::open();
   const Program program = kernel(*device, adds_one);
   const Buffer buffer(16, "buffer");
-  for (int round = 0; round < 2; ++round) {
+  const auto run = [&] {
     use(program);
     bind_storage(0, buffer);
     dispatch(1, 1, 1);
     memory_barrier_all();
-    forget_bindings();
-  }
+  };
+  run();
+  void* const egl = dlopen("libEGL.so.1", RTLD_NOW);
+  REQUIRE(egl);
+  const auto address_of = reinterpret_cast<void (*(*)(const char*))()>(dlsym(egl, "eglGetProcAddress"));
+  REQUIRE(address_of);
+  reinterpret_cast<void (*)(unsigned)>(address_of("glUseProgram"))(0);
+  CHECK_THROWS_AS(run(), DriverError);
+  forget_bindings();
+  run();
   CHECK(contents<std::uint32_t>(buffer)[0] == 2);
 }

@@ -195,10 +195,10 @@ TEST_CASE("instances, points of a given size, and patches are drawn") {
     CHECK(at(5, 3) == 1);
     CHECK(at(6, 1) == 0);
   }
-  SECTION("a patch of four vertices becomes a square") {
+  SECTION("a patch of two vertices becomes a square") {
     const std::array shaders = {std::pair{ShaderKind::vertex, with_version(*device, "void main() { gl_Position = vec4(0.0); }")},
                                 std::pair{ShaderKind::tessellation_control, with_version(*device, R"(
-      layout(vertices = 4) out;
+      layout(vertices = 2) out;
       void main() {
         gl_out[gl_InvocationID].gl_Position = gl_in[gl_InvocationID].gl_Position;
         gl_TessLevelOuter = float[4](2.0, 2.0, 2.0, 2.0);
@@ -212,7 +212,7 @@ TEST_CASE("instances, points of a given size, and patches are drawn") {
       void main() { result = vec4(1.0, 0.0, 0.0, 1.0); })")}};
     const Program program(shaders, "patches");
     use(program);
-    draw(target.framebuffer, {.topology = Topology::patches, .patch_vertices = 4}, 4, 1);
+    draw(target.framebuffer, {.topology = Topology::patches, .patch_vertices = 2}, 2, 1);
     CHECK(texels<float>(target.color) == filled({1, 0, 0, 1}));
   }
 }

@@ -178,6 +178,25 @@ TEST_CASE("a read before the first write, and a write that nobody reads, are war
         Lines{"p.yaml:4:5: warning: demo.copy writes 'y', which no stage reads"});
 }
 
+TEST_CASE("a stage that reads what it left in the step before is no reason for a warning") {
+  graph::Registry registry = made_up_registry();
+  graph::StageSpec spec = stage("demo.remember", {port("memory", graph::Access::read_write)});
+  spec.work = {graph::Dispatch{.kernel = "look.comp", .over = "points", .uses = {{"memory", graph::Access::read}}},
+               graph::Dispatch{.kernel = "write.comp", .over = "points", .uses = {{"memory", graph::Access::write}}}};
+  registry.add(spec);
+  CHECK(compiled("firn: 1\nstep: [demo.remember]\n", {}, registry).messages == Lines{});
+}
+
+TEST_CASE("a buffer that comes from or goes elsewhere needs no stage that writes or reads it") {
+  graph::Environment environment = made_up_environment();
+  environment.provided = {"x", "y"};
+  const auto [plan, lines] = compiled("firn: 1\nstep: [demo.copy]\n", {}, made_up_registry(), environment);
+  CHECK(lines == Lines{});
+  CHECK(buffer_of(plan, "y").lifetime == graph::Lifetime::state);
+  environment.provided = {"y"};
+  CHECK(compiled("firn: 1\nstep: [demo.copy]\n", {}, made_up_registry(), environment).messages.size() == 1);
+}
+
 TEST_CASE("a buffer lives on between steps unless every step writes it first and only steps use it") {
   const auto lifetime = [](const std::string& yaml) { return buffer_of(compiled(yaml).plan, "y").lifetime; };
   const std::string start = "firn: 1\nsetup: [demo.fill]\nstep:\n";

@@ -63,6 +63,14 @@ TEST_CASE("a file that includes itself is an error, directly or through others")
         Lines{"sub/two.yaml:2:10: error: '../one.yaml' includes itself, directly or through others"});
 }
 
+TEST_CASE("a file that includes itself under another name is found out") {
+  const Folder folder;
+  folder.write("real/self.yaml", "firn: 1\ninclude: self.yaml\nstep: [a]\n");
+  std::filesystem::create_directory_symlink(folder.path() / "real", folder.path() / "link");
+  CHECK(loaded(folder, "link/self.yaml").messages ==
+        Lines{"link/self.yaml:2:10: error: 'self.yaml' includes itself, directly or through others"});
+}
+
 TEST_CASE("a missing include is an error at its name") {
   const Folder folder;
   folder.write("p.yaml", "firn: 1\ninclude: lib/bsae.yaml\nstep: [a]\n");

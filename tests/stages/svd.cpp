@@ -50,6 +50,7 @@ firn::graph::Registry svd_stage() {
   };
   registry.add({.name = "test.svd",
                 .doc = "Singular values of matrices",
+                .equation = "M3",
                 .ports = {port("matrix", ElementType::mat3, Access::read), port("u", ElementType::mat3, Access::write),
                           port("s", ElementType::vec3, Access::write), port("v", ElementType::mat3, Access::write)},
                 .work = {Dispatch{.kernel = std::string(FIRN_SOURCE_DIR) + "/tests/stages/shaders/svd.comp", .over = "matrices"}}});
