@@ -18,7 +18,7 @@
 namespace firn::config {
 namespace {
 
-constexpr std::size_t largest_file = 64 * 1024 * 1024;
+constexpr std::size_t largest_file = std::size_t{64} * 1024 * 1024;
 
 // A name in the same folder that is nearly the one asked for.
 std::string nearest_file(const std::filesystem::path& path) {
@@ -52,11 +52,11 @@ std::optional<std::string> read(const std::filesystem::path& path, Diagnostics& 
   }
   // Read in pieces: pipes and devices tell no size.
   std::string text;
-  std::string piece(64 * 1024, '\0');
+  std::string piece(65536, '\0');
   while (file.read(piece.data(), static_cast<std::streamsize>(piece.size())), file.gcount() > 0) {
     text.append(piece, 0, static_cast<std::size_t>(file.gcount()));
     if (text.size() > largest_file) {
-      diagnostics.error(place, fmt::format("the file is larger than {} MiB", largest_file / (1024 * 1024)));
+      diagnostics.error(place, fmt::format("the file is larger than {} MiB", largest_file >> 20U));
       return std::nullopt;
     }
   }

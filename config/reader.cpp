@@ -63,7 +63,7 @@ bool Reader::boolean(std::string_view key, bool fallback) {
 
 std::string Reader::text(std::string_view key, std::string fallback) {
   const Node* value = find(key);
-  return value == nullptr ? fallback : read_text(*value, key, diagnostics_).value_or(fallback);
+  return value == nullptr ? std::move(fallback) : read_text(*value, key, diagnostics_).value_or(std::move(fallback));
 }
 
 std::string Reader::required_text(std::string_view key) {
@@ -83,7 +83,7 @@ std::optional<Vector3> Reader::required_vector3(std::string_view key, const Rang
 
 std::string Reader::choice(std::string_view key, const std::vector<std::string>& choices, std::string fallback) {
   const Node* value = find(key);
-  return value == nullptr ? fallback : read_choice(*value, key, choices, diagnostics_).value_or(fallback);
+  return value == nullptr ? std::move(fallback) : read_choice(*value, key, choices, diagnostics_).value_or(std::move(fallback));
 }
 
 void Reader::finish() {

@@ -128,7 +128,7 @@ class Substitution {
     return has_room(use, {0, value->scalar.size()}) ? value->scalar : "";
   }
 
-  const Node& parameters_;
+  const Node parameters_;  // a copy: they may be a part of the tree that is changed
   Diagnostics& diagnostics_;
   std::vector<std::string> names_;
   Size used_;
@@ -136,9 +136,6 @@ class Substitution {
 
 }  // namespace
 
-void substitute(Node& node, const Node& parameters, Diagnostics& diagnostics) {
-  const Node copy = parameters;  // they may be a part of `node`
-  Substitution(copy, diagnostics).run(node);
-}
+void substitute(Node& node, const Node& parameters, Diagnostics& diagnostics) { Substitution(parameters, diagnostics).run(node); }
 
 }  // namespace firn::config

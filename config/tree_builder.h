@@ -17,8 +17,8 @@
 namespace firn::config {
 
 constexpr int deepest_nesting = 100;
-constexpr std::size_t most_nodes = 200'000;                  // keys count, copies made by aliases too
-constexpr std::size_t most_copied_bytes = 64 * 1024 * 1024;  // of text, by aliases and parameters
+constexpr std::size_t most_nodes = 200'000;                               // keys count, copies made by aliases too
+constexpr std::size_t most_copied_bytes = std::size_t{64} * 1024 * 1024;  // of text, by aliases and parameters
 
 // Thrown by the builder to leave the parser.
 struct Stop {

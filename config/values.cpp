@@ -36,8 +36,8 @@ bool contains(const Range& range, double value) {
 std::string describe(const Range& range) {
   const bool has_min = std::isfinite(range.min);
   const bool has_max = std::isfinite(range.max);
-  const std::string min = fmt::format("{} {}", range.open_min ? "greater than" : "at least", range.min);
-  const std::string max = fmt::format("{} {}", range.open_max ? "less than" : "at most", range.max);
+  std::string min = fmt::format("{} {}", range.open_min ? "greater than" : "at least", range.min);
+  std::string max = fmt::format("{} {}", range.open_max ? "less than" : "at most", range.max);
   if (!has_min && !has_max) return "any number";
   if (!has_max) return min;
   if (!has_min) return max;
@@ -108,7 +108,7 @@ std::optional<Vector3> read_vector3(const Node& node, std::string_view what, con
 
 std::optional<std::string> read_choice(const Node& node, std::string_view what, const std::vector<std::string>& choices,
                                        Diagnostics& diagnostics) {
-  const auto text = read_text(node, what, diagnostics);
+  auto text = read_text(node, what, diagnostics);
   if (!text || std::find(choices.begin(), choices.end(), *text) != choices.end()) return text;
   diagnostics.error(node.place, fmt::format("{} cannot be {}{}", what, describe(node), suggestion(*text, choices)));
   return std::nullopt;

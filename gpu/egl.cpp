@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <map>
-#include <mutex>
+#include <array>
 #include <string_view>
 
 #include "gpu/device.h"
@@ -14,6 +13,7 @@ namespace {
 
 constexpr EGLint drm_device_file = 0x3233;       // EGL_DRM_DEVICE_FILE_EXT (EGL_EXT_device_drm)
 constexpr EGLint drm_render_node_file = 0x3377;  // EGL_DRM_RENDER_NODE_FILE_EXT (EGL_EXT_device_drm_render_node)
+constexpr std::array khr_debug = {0x30FC, 0x1};  // EGL_CONTEXT_FLAGS_KHR, EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR (EGL_KHR_create_context)
 constexpr EGLint offered_versions[][2] = {{4, 6}, {4, 5}, {4, 3}};
 
 bool lists(const char* extensions, std::string_view name) {
@@ -55,34 +55,8 @@ std::string device_path(EGLDeviceEXT device, const char* extensions) {
   return path ? path : "";
 }
 
-// EGL counts neither initialisations nor terminations: a display is one per process and device, and terminating it takes along
-// every context on it. So the contexts on each display are counted here, and the last one terminates it.
-struct DisplayUse {
-  std::mutex mutex;
-  std::map<EGLDisplay, int> contexts;
-};
-DisplayUse& display_use() {
-  static DisplayUse use;
-  return use;
-}
-
-void hold_display(EGLDisplay display) {
-  DisplayUse& use = display_use();
-  const std::lock_guard lock(use.mutex);
-  EGLint major = 0, minor = 0;
-  if (!eglInitialize(display, &major, &minor)) throw DeviceError(fmt::format("eglInitialize failed ({})", egl_error()));
-  ++use.contexts[display];
-}
-
-void let_display_go(EGLDisplay display) {
-  DisplayUse& use = display_use();
-  const std::lock_guard lock(use.mutex);
-  if (--use.contexts[display] > 0) return;
-  use.contexts.erase(display);
-  eglTerminate(display);
-}
-
-EGLContext create_context(EGLDisplay display) {
+// `debug` asks for debug output, as an attribute and its value.
+EGLContext create_context(EGLDisplay display, std::array<EGLint, 2> debug) {
   if (!eglBindAPI(EGL_OPENGL_API)) throw DeviceError("this EGL offers no OpenGL, only OpenGL ES");
   constexpr EGLint config_attributes[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
@@ -96,8 +70,8 @@ EGLContext create_context(EGLDisplay display) {
                                  version[1],
                                  EGL_CONTEXT_OPENGL_PROFILE_MASK,
                                  EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                 EGL_CONTEXT_OPENGL_DEBUG,
-                                 EGL_TRUE,
+                                 debug[0],
+                                 debug[1],
                                  EGL_NONE};
     const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
     if (context != EGL_NO_CONTEXT) return context;
@@ -142,26 +116,27 @@ std::vector<EglPlace> egl_places() {
 EglContext::EglContext(const EglPlace& place) {
   display_ = eglGetPlatformDisplayEXT(place.platform, place.native, nullptr);
   if (display_ == EGL_NO_DISPLAY) throw DeviceError(fmt::format("eglGetPlatformDisplay failed ({})", egl_error()));
-  hold_display(display_);
-  try {
-    // glad knows the functions beyond EGL 1.0 only once it sees an initialised display.
-    if (gladLoaderLoadEGL(display_) < GLAD_MAKE_VERSION(1, 5)) {
-      throw DeviceError(fmt::format("EGL 1.5 is needed; offered is {}", eglQueryString(display_, EGL_VERSION)));
-    }
-    if (!lists(eglQueryString(display_, EGL_EXTENSIONS), "EGL_KHR_surfaceless_context")) {
-      throw DeviceError("EGL_KHR_surfaceless_context is needed (a context without a window) and not offered");
-    }
-    context_ = create_context(display_);
-  } catch (...) {
-    let_display_go(display_);
-    throw;
+  // Never terminated: EGL has one display per device and process and counts no users, so terminating it would take along the
+  // contexts of others. It also keeps the driver loaded, which not every driver survives otherwise.
+  EGLint major = 0, minor = 0;
+  if (!eglInitialize(display_, &major, &minor)) throw DeviceError(fmt::format("eglInitialize failed ({})", egl_error()));
+  // glad knows the functions beyond EGL 1.0 only once it sees an initialised display.
+  const int version = gladLoaderLoadEGL(display_);
+  const char* extensions = eglQueryString(display_, EGL_EXTENSIONS);
+  const bool modern = version >= GLAD_MAKE_VERSION(1, 5);
+  if (!modern && !lists(extensions, "EGL_KHR_create_context")) {
+    throw DeviceError(
+        fmt::format("EGL 1.5 or EGL_KHR_create_context is needed; offered is {}", eglQueryString(display_, EGL_VERSION)));
   }
+  if (!lists(extensions, "EGL_KHR_surfaceless_context")) {
+    throw DeviceError("EGL_KHR_surfaceless_context is needed (a context without a window) and not offered");
+  }
+  context_ = create_context(display_, modern ? std::array{EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE} : khr_debug);
 }
 
 EglContext::~EglContext() {
   if (eglGetCurrentContext() == context_) release();
   eglDestroyContext(display_, context_);
-  let_display_go(display_);
 }
 
 bool EglContext::make_current() const {

@@ -9,10 +9,13 @@
 namespace firn::graph {
 namespace {
 
-std::vector<std::string> stages_that_write(const std::string& buffer, const Registry& registry) {
+// `anew`: only those that do not go on from what is there.
+std::vector<std::string> stages_that_write(const std::string& buffer, const Registry& registry, bool anew = false) {
   std::vector<std::string> names;
   for (const auto& [name, type] : registry.all())
-    if (std::ranges::any_of(type.spec.ports, [&](const Port& port) { return port.name == buffer && writes(port.access); }))
+    if (std::ranges::any_of(type.spec.ports, [&](const Port& port) {
+          return port.name == buffer && (anew ? port.access == Access::write : writes(port.access));
+        }))
       names.push_back(name);
   return names;
 }
@@ -29,6 +32,12 @@ void check_order(const PlannedBuffer& buffer, const std::vector<BufferUse>& uses
     diagnostics.error(buffer.place, fmt::format("{} reads '{}', which no stage of this pipeline writes{}", first.label, buffer.name,
                                                 writers.empty() ? "; bind the port to another buffer, or add a stage that writes it"
                                                                 : fmt::format("; {} would", fmt::join(writers, " or "))));
+  } else if (first.usage == Usage::framebuffer && first.access != Access::write) {
+    // Over a depth of zeros nothing can be drawn.
+    const std::vector<std::string> writers = stages_that_write(buffer.name, registry, true);
+    diagnostics.error(buffer.place,
+                      fmt::format("{} draws into '{}', which no stage before it has begun{}", first.label, buffer.name,
+                                  writers.empty() ? "" : fmt::format("; {} would", fmt::join(writers, " or "))));
   } else if (first.port_access == Access::read) {
     diagnostics.warning(buffer.place, fmt::format("{} reads '{}' before any stage has written it: at first it reads zeros",
                                                   first.label, buffer.name));
@@ -62,7 +71,8 @@ void lay_out_memory(Plan& plan, const BufferUses& uses) {
     const auto of_buffer = uses.find(b);
     const bool written_first =
         of_buffer != uses.end() && of_buffer->second.front().in_every_step && of_buffer->second.front().access == Access::write;
-    const bool only_steps = written_first && std::ranges::all_of(of_buffer->second, &BufferUse::in_step);
+    const bool only_steps = written_first && std::ranges::all_of(of_buffer->second, &BufferUse::in_step) &&
+                            !plan.environment.provided.contains(buffer.name);
     buffer.lifetime = only_steps ? Lifetime::scratch : Lifetime::state;
     buffer.storage = b;
     plan.bytes += buffer.bytes;

@@ -24,8 +24,8 @@ struct BufferUse {
 };
 using BufferUses = std::map<int, std::vector<BufferUse>>;  // by buffer; uses in the order of execution
 
-// Errors: a buffer that is read but never written; an image used as a buffer. Warnings: a read before the first write; writes
-// that nobody reads.
+// Errors: a buffer that is read but never written; a picture drawn into that nobody began; an image used as a buffer. Warnings: a
+// read before the first write; writes that nobody reads.
 void check_buffers(const Plan& plan, const BufferUses& uses, const Registry& registry, config::Diagnostics& diagnostics);
 
 // Lifetimes and storage of all buffers, and the plan's bytes.

@@ -14,7 +14,7 @@ std::size_t padded_offset(ElementType type, int component) {
 template <typename T>
 std::vector<T> typed(std::span<const std::byte> bytes) {
   std::vector<T> values(bytes.size() / sizeof(T));
-  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
   return values;
 }
 

@@ -8,7 +8,7 @@ namespace firn::stages::render {
 graph::StageSpec background() {
   using enum graph::Access;
   using graph::ParameterKind;
-  std::vector<graph::Port> ports{view::image(write, graph::Usage::framebuffer), view::image_depth(read_write),
+  std::vector<graph::Port> ports{view::image(write, graph::Usage::framebuffer), view::image_depth(write),
                                  view::optional_shadow_map(), view::optional(mpm::body("body_color", read))};
   return {
       .name = "render.background",

@@ -122,6 +122,14 @@ TEST_CASE("an override that fails leaves the tree as it was") {
   CHECK(same(overridden(yaml, "parameters.a.b=1").root, parse_good(yaml)));
 }
 
+TEST_CASE("the value put in takes over the place given") {
+  Node root = parse_good("a: 1");
+  Diagnostics diagnostics;
+  apply_override(root, {"a"}, parse_good("[1]"), {"sweep.yaml", 3, 4}, diagnostics);
+  CHECK(diagnostics.all().empty());
+  CHECK(to_string(root.find("a")->items.at(0).place) == "sweep.yaml:3:4");
+}
+
 TEST_CASE("an empty path is an error") {
   Node root = parse_good("a: 1");
   Diagnostics diagnostics;

@@ -15,7 +15,7 @@ using namespace graph;
 template <typename T>
 std::vector<std::byte> bytes_of(const std::vector<T>& values) {
   std::vector<std::byte> bytes(values.size() * sizeof(T));
-  std::memcpy(bytes.data(), values.data(), bytes.size());
+  if (!bytes.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
   return bytes;
 }
 
@@ -100,6 +100,8 @@ TEST_CASE("host stages read and write packed numbers") {
   context.write_floats("v", std::vector<float>{1, 2, 3, 4, 5, 6});
   CHECK(context.data["v"].size() == 32);
   CHECK(context.read_floats("v") == std::vector<float>{1, 2, 3, 4, 5, 6});
+  context.write_floats("v", {});
+  CHECK(context.read_floats("v").empty());
   context.write_integers("n", std::vector<std::int32_t>{-1, 0, 7});
   CHECK(context.data["n"].size() == 16);
   CHECK(context.read_integers("n") == std::vector<std::int32_t>{-1, 0, 7});
