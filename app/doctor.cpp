@@ -16,7 +16,8 @@ namespace {
 std::vector<std::string> verdict(const gpu::DeviceInfo& info) {
   std::vector<std::string> remarks;
   if (info.limits.storage_blocks_compute < 12)
-    remarks.push_back(fmt::format("{} storage blocks per compute shader: stages with more ports are refused", info.limits.storage_blocks_compute));
+    remarks.push_back(fmt::format("{} storage blocks per compute shader: stages with more ports are refused",
+                                  info.limits.storage_blocks_compute));
   if (!info.extensions.contains("GL_NV_shader_atomic_float"))
     remarks.push_back("no GL_NV_shader_atomic_float: `accumulate: float` uses a compare-and-swap loop, which is slower");
   if (info.software) remarks.push_back("a software renderer: everything works, on the CPU; draws cannot be timed by time stamps");
@@ -53,7 +54,8 @@ void add_doctor(CLI::App& program, Action& action) {
   const auto choice = std::make_shared<std::string>("auto");
   CLI::App* verb = program.add_subcommand("doctor", "Devices, driver, limits; what will not work here, and why");
   verb->add_flag("--json", *json, "As JSON");
-  verb->add_option("--device", *choice, "auto, hardware, software, a number of the list, or a part of a name")->capture_default_str();
+  verb->add_option("--device", *choice, "auto, hardware, software, a number of the list, or a part of a name")
+      ->capture_default_str();
   verb->callback([&action, json, choice] {
     action = [json, choice] {
       const std::vector<gpu::Device::Candidate> candidates = gpu::Device::candidates();
@@ -66,24 +68,26 @@ void add_doctor(CLI::App& program, Action& action) {
         entry["problem"] = candidate.problem;
         list.push_back(entry);
         if (!*json)
-          fmt::print("  {}  {}: {}\n", i, candidate.where,
-                     candidate.problem.empty() ? fmt::format("{}, {}", candidate.info.name, candidate.info.version) : candidate.problem);
+          fmt::print(
+              "  {}  {}: {}\n", i, candidate.where,
+              candidate.problem.empty() ? fmt::format("{}, {}", candidate.info.name, candidate.info.version) : candidate.problem);
       }
       const std::unique_ptr<gpu::Device> device = gpu::Device::open(*choice);
       const gpu::DeviceInfo& info = device->info();
       const std::vector<std::string> remarks = verdict(info);
       if (*json) {
-        const nlohmann::json report = {{"version", version()}, {"devices", list}, {"used", as_json(info)}, {"remarks", remarks},
+        const nlohmann::json report = {{"version", version()},        {"devices", list},
+                                       {"used", as_json(info)},       {"remarks", remarks},
                                        {"ffmpeg", on_path("ffmpeg")}, {"graphviz", on_path("dot")}};
         fmt::print("{}\n", report.dump(2));
         return static_cast<int>(Status::done);
       }
       const gpu::Limits& limits = info.limits;
       fmt::print("\nused\n  {} ({}), {}\n", info.name, info.vendor, info.version);
-      fmt::print("  storage blocks per compute shader   {}\n  bytes per storage block             {}\n", limits.storage_blocks_compute,
-                 limits.storage_block_bytes);
-      fmt::print("  texels per buffer texture           {}\n  texture size                        {}\n", limits.texture_buffer_texels,
-                 limits.texture_size);
+      fmt::print("  storage blocks per compute shader   {}\n  bytes per storage block             {}\n",
+                 limits.storage_blocks_compute, limits.storage_block_bytes);
+      fmt::print("  texels per buffer texture           {}\n  texture size                        {}\n",
+                 limits.texture_buffer_texels, limits.texture_size);
       fmt::print("  invocations per work group          {}\n  shared memory per work group        {}\n", limits.group_invocations,
                  limits.shared_bytes);
       fmt::print("\nprograms\n  ffmpeg    {}\n  Graphviz  {}\n", on_path("ffmpeg") ? "found" : "not found: no video, pictures only",

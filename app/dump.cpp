@@ -36,7 +36,8 @@ std::vector<Dump> parse_dumps(const std::vector<std::string>& words, const graph
     }
     const Dump dump{word.substr(0, sign), word.substr(sign + 1)};
     if (std::find(names.begin(), names.end(), dump.buffer) == names.end())
-      diagnostics.error(place, fmt::format("no buffer '{}' in this pipeline{}", dump.buffer, config::suggestion(dump.buffer, names)));
+      diagnostics.error(place,
+                        fmt::format("no buffer '{}' in this pipeline{}", dump.buffer, config::suggestion(dump.buffer, names)));
     dumps.push_back(dump);
   }
   config::throw_if_errors(diagnostics);
@@ -56,9 +57,15 @@ void write_dump(const execution::Execution& execution, const Dump& dump) {
     shape.push_back(static_cast<std::uint64_t>(parts));
   const std::vector<std::byte> values = graph::unpadded(buffer.type, execution.read(dump.buffer));
   switch (graph::scalar(buffer.type)) {
-    case graph::Scalar::integer: write_as<std::int32_t>(dump.file, shape, values); break;
-    case graph::Scalar::natural: write_as<std::uint32_t>(dump.file, shape, values); break;
-    default: write_as<float>(dump.file, shape, values); break;
+    case graph::Scalar::integer:
+      write_as<std::int32_t>(dump.file, shape, values);
+      break;
+    case graph::Scalar::natural:
+      write_as<std::uint32_t>(dump.file, shape, values);
+      break;
+    default:
+      write_as<float>(dump.file, shape, values);
+      break;
   }
 }
 

@@ -41,8 +41,9 @@ scene::Scene nominal_scene() {
 void add_inputs(CLI::App& verb, Inputs& inputs) {
   verb.add_option("PIPELINE", inputs.pipeline, "Pipeline file (YAML), or the name of one that comes with Firn")->required();
   verb.add_option("--scene", inputs.scene, "Scene file instead of the pipeline's own");
-  verb.add_option("--set", inputs.set, "K=V: a pipeline parameter (k=4), a stage's (mpm.grid_to_particles.flip=0.9), or part of the scene "
-                                       "(scene.gravity=[0,-1.62,0]); V is YAML")
+  verb.add_option("--set", inputs.set,
+                  "K=V: a pipeline parameter (k=4), a stage's (mpm.grid_to_particles.flip=0.9), or part of the scene "
+                  "(scene.gravity=[0,-1.62,0]); V is YAML")
       ->allow_extra_args(false);
   verb.add_option("--disable", inputs.disable, "Leave a stage out")->allow_extra_args(false);
   verb.add_option("--image", inputs.image, "Size of pictures, WIDTHxHEIGHT")->capture_default_str();
@@ -100,14 +101,16 @@ Loaded load(const Inputs& inputs, const std::string& output) {
       if (!of_scene.has_errors()) {
         for (const config::Override& change : edits.set)
           if (change.path.front() == "scene")
-            config::apply_override(loaded.scene_node, {change.path.begin() + 1, change.path.end()}, change.value, change.place, of_scene);
+            config::apply_override(loaded.scene_node, {change.path.begin() + 1, change.path.end()}, change.value, change.place,
+                                   of_scene);
         scene::Scene scene = scene::read_scene(loaded.scene_node, of_scene);
         if (!of_scene.has_errors()) problem = stages::make_problem(std::move(scene), image, output);
       }
       diagnostics.append(of_scene);
     }
   } else if (!loaded.pipeline.file.empty() && !diagnostics.has_errors()) {
-    diagnostics.error({loaded.pipeline_file, 0, 0}, "no scene: name one in the pipeline ('scene: scenes/snowball.yaml') or by --scene FILE");
+    diagnostics.error({loaded.pipeline_file, 0, 0},
+                      "no scene: name one in the pipeline ('scene: scenes/snowball.yaml') or by --scene FILE");
   }
   const bool nominal = problem == nullptr;
   if (nominal) problem = stages::make_problem(nominal_scene(), image, "");

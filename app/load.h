@@ -15,7 +15,7 @@
 namespace firn::app {
 
 struct Inputs {
-  std::string pipeline, scene;         // files; an empty scene is the pipeline's own
+  std::string pipeline, scene;  // files; an empty scene is the pipeline's own
   std::vector<std::string> set, disable;
   std::string image = "1280x720";
 };
@@ -35,7 +35,8 @@ struct Loaded {
 // Throws config::InputError with everything that is wrong with pipeline and scene. `output`: folder for what stages write.
 Loaded load(const Inputs& inputs, const std::string& output);
 
-// `name` as given, else below the folders of pipelines that come with Firn, with or without .yaml. Unchanged where nothing is found.
+// `name` as given, else below the folders of pipelines that come with Firn, with or without .yaml. Unchanged where nothing is
+// found.
 std::string find_input(const std::string& name, const std::string& folder);
 
 // Where shaders are: FIRN_DATA, share/firn beside the program's own folder, or the source tree it was built from.

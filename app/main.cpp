@@ -49,17 +49,19 @@ void set_up_log(bool verbose, bool quiet) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App program{"Firn simulates snow on the GPU. A pipeline (YAML) lists stages; Firn checks it, binds buffers, places memory barriers, runs "
-                   "and times it.",
-                   "firn"};
+  CLI::App program{
+      "Firn simulates snow on the GPU. A pipeline (YAML) lists stages; Firn checks it, binds buffers, places memory barriers, runs "
+      "and times it.",
+      "firn"};
   program.set_version_flag("--version", firn::app::version_line());
   program.require_subcommand(1);
   program.fallthrough();
   bool verbose = false, quiet = false;
   program.add_flag("-v,--verbose", verbose, "Say more on stderr");
   program.add_flag("-q,--quiet", quiet, "Say only errors");
-  program.footer("firn VERB --help tells more. Exit status: 0 done, 1 failed while running, 2 bad usage or input, 3 the device cannot do it,\n"
-                 "4 the numbers broke, 130 interrupted.");
+  program.footer(
+      "firn VERB --help tells more. Exit status: 0 done, 1 failed while running, 2 bad usage or input, 3 the device cannot do it,\n"
+      "4 the numbers broke, 130 interrupted.");
 
   firn::app::Action action;
   firn::app::add_run(program, action);

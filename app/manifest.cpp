@@ -15,8 +15,7 @@ nlohmann::json stages_json(const graph::Plan& plan) {
   nlohmann::json list = nlohmann::json::array();
   for (const graph::PlannedStage& stage : plan.stages) {
     nlohmann::json parameters = nlohmann::json::object();
-    for (const auto& [name, value] : stage.parameters)
-      std::visit([&, key = name](const auto& v) { parameters[key] = v; }, value);
+    for (const auto& [name, value] : stage.parameters) std::visit([&, key = name](const auto& v) { parameters[key] = v; }, value);
     nlohmann::json buffers = nlohmann::json::object();
     for (std::size_t p = 0; p < stage.buffers.size(); ++p)
       if (stage.buffers[p] >= 0) buffers[stage.spec.ports[p].name] = plan.buffers[static_cast<std::size_t>(stage.buffers[p])].name;

@@ -16,9 +16,9 @@ struct RunFacts {
   std::string started;               // UTC, ISO 8601
   double seconds = 0;
   std::uint64_t steps = 0, frames = 0;
-  double time = 0;                   // s, simulated
+  double time = 0;  // s, simulated
   int exit_status = 0;
-  std::string message;               // why it ended early; empty: it did not
+  std::string message;  // why it ended early; empty: it did not
 };
 
 nlohmann::json manifest(const Loaded& loaded, const gpu::DeviceInfo& device, const RunFacts& facts);

@@ -38,7 +38,8 @@ void warn_of_long_steps(const scene::Scene& scene) {
   // cfl 1 is where the explicit scheme breaks; the scene's own cfl is its safety.
   const double limit = stages::stable_time_step(scene) / scene.time.cfl;
   if (limit > 0 && *scene.time.dt > limit)
-    spdlog::warn("dt {:g} s is beyond what the explicit scheme bears with this material and grid, about {:.2g} s", *scene.time.dt, limit);
+    spdlog::warn("dt {:g} s is beyond what the explicit scheme bears with this material and grid, about {:.2g} s", *scene.time.dt,
+                 limit);
 }
 
 void prepare_output(const std::string& output) {
@@ -85,12 +86,13 @@ int run(const RunOptions& options) {
   };
   Ending ending = Ending::complete;
   try {
-    ending = simulate(execution, scene.time, {options.steps, options.frames}, device->info().software, [&](const graph::Clock& clock) {
-      progress.update(options.steps    ? static_cast<double>(clock.step)
-                      : options.frames ? static_cast<double>(clock.frame)
-                                       : clock.time,
-                      clock.frame, clock.step);
-    });
+    ending =
+        simulate(execution, scene.time, {options.steps, options.frames}, device->info().software, [&](const graph::Clock& clock) {
+          progress.update(options.steps    ? static_cast<double>(clock.step)
+                          : options.frames ? static_cast<double>(clock.frame)
+                                           : clock.time,
+                          clock.frame, clock.step);
+        });
     execution.finish();
     for (const Dump& dump : dumps) write_dump(execution, dump);
   } catch (const execution::NumbersError& error) {
@@ -102,8 +104,8 @@ int run(const RunOptions& options) {
   }
   const int status = ending == Ending::interrupted ? Status::interrupted : Status::done;
   conclude(status, ending == Ending::interrupted ? "interrupted" : "");
-  spdlog::info("{} steps, {} frames, {:.3f} s simulated in {:.1f} s ({:.0f} steps/s); results in {}", facts.steps, facts.frames, facts.time,
-               facts.seconds, static_cast<double>(facts.steps) / std::max(facts.seconds, 1e-9), output);
+  spdlog::info("{} steps, {} frames, {:.3f} s simulated in {:.1f} s ({:.0f} steps/s); results in {}", facts.steps, facts.frames,
+               facts.time, facts.seconds, static_cast<double>(facts.steps) / std::max(facts.seconds, 1e-9), output);
   return status;
 }
 
@@ -117,7 +119,8 @@ void add_run(CLI::App& program, Action& action) {
   verb->add_option("--frames", options->frames, "Stop after so many frames")->excludes("--steps");
   verb->add_option("--out", options->output, "Folder for results (default: out/<pipeline>)");
   verb->add_option("--dump", options->dumps, "BUFFER=FILE.npy: write a buffer at the end")->allow_extra_args(false);
-  verb->add_option("--device", options->device, "auto (hardware first), hardware, software, a number as doctor lists them, or part of a name")
+  verb->add_option("--device", options->device,
+                   "auto (hardware first), hardware, software, a number as doctor lists them, or part of a name")
       ->capture_default_str();
   verb->add_option("--barriers", options->barriers, "derived: those of the plan; all: a full one after every piece of work")
       ->check(CLI::IsMember({"derived", "all"}))

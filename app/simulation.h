@@ -21,8 +21,9 @@ void watch_signals();
 
 enum class Ending { complete, interrupted };
 
-// Setup, then steps, with a frame whenever its time has come (frame 0 before the first step). `after_step` is called with the clock.
-// Throws execution::NumbersError as soon as kernels report a fault: after every step where that is free, else with every frame.
+// Setup, then steps, with a frame whenever its time has come (frame 0 before the first step). `after_step` is called with the
+// clock. Throws execution::NumbersError as soon as kernels report a fault: after every step where that is free, else with every
+// frame.
 Ending simulate(execution::Execution& execution, const scene::Time& time, const Until& until, bool check_every_step,
                 const std::function<void(const graph::Clock&)>& after_step);
 

@@ -18,7 +18,8 @@ void add_test(CLI::App& program, Action& action) {
     action = [filter]() -> int {
       const std::filesystem::path build = FIRN_BUILD_DIR;
       if (!std::filesystem::exists(build / "CTestTestfile.cmake"))
-        throw std::runtime_error(fmt::format("no tests in {}: they are part of a build tree, not of an installation", build.string()));
+        throw std::runtime_error(
+            fmt::format("no tests in {}: they are part of a build tree, not of an installation", build.string()));
       std::vector<std::string> words{"ctest", "--test-dir", build.string(), "--output-on-failure", "--parallel", "2"};
       if (!filter->empty()) words.insert(words.end(), {"--tests-regex", *filter});
       std::vector<char*> arguments;

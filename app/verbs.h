@@ -10,10 +10,10 @@ namespace firn::app {
 // Exit status of the program, as documented for users.
 enum Status : int {
   done = 0,
-  failed = 1,           // while running
-  bad_input = 2,        // usage, or an input file
-  device_lacks = 3,     // the device cannot do it
-  numbers_broke = 4,    // NaN, overflow, out of the domain
+  failed = 1,         // while running
+  bad_input = 2,      // usage, or an input file
+  device_lacks = 3,   // the device cannot do it
+  numbers_broke = 4,  // NaN, overflow, out of the domain
   interrupted = 130,
 };
 

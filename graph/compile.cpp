@@ -273,7 +273,8 @@ class Compiler {
                           "them to two buffers",
                           stage.label, other->second.first, port.name, plan_.buffers[static_cast<std::size_t>(buffer)].name));
         run.accesses.push_back({buffer, used.access, used.usage});
-        uses_[buffer].push_back({stage.place, stage.label, used.access, port.access, used.usage, in_step, in_step && stage.every == 1});
+        uses_[buffer].push_back(
+            {stage.place, stage.label, used.access, port.access, used.usage, in_step, in_step && stage.every == 1});
       }
       ops.push_back({std::move(run)});
     }

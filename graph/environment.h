@@ -1,6 +1,7 @@
 #pragma once
 
-// What the scene and the program tell the graph: sizes of domains, constants for kernels, choices. Plain data; the graph knows no snow.
+// What the scene and the program tell the graph: sizes of domains, constants for kernels, choices. Plain data; the graph knows no
+// snow.
 
 #include <cstdint>
 #include <map>
@@ -15,8 +16,8 @@ namespace firn::graph {
 
 struct DomainSize {
   std::uint64_t count = 0;
-  int width = 0, height = 0;               // of two-dimensional domains, which textures can have; 0 else
-  std::vector<std::uint64_t> shape = {};   // of arrays in files, slowest index first: [nz, ny, nx]; empty: [count]
+  int width = 0, height = 0;              // of two-dimensional domains, which textures can have; 0 else
+  std::vector<std::uint64_t> shape = {};  // of arrays in files, slowest index first: [nz, ny, nx]; empty: [count]
 };
 
 struct Constant {
@@ -28,7 +29,8 @@ struct Constant {
 
 struct Environment {
   std::map<std::string, DomainSize> domains;
-  std::map<std::string, std::string> missing;  // known domains and constants without a value here, and why ("the scene has no field")
+  std::map<std::string, std::string>
+      missing;  // known domains and constants without a value here, and why ("the scene has no field")
   std::vector<Constant> constants;
   std::set<std::string> provided;              // buffers that come from, or go, elsewhere: they need neither writer nor reader
   std::map<std::string, std::string> choices;  // for conditions of specs: {"time_step", "auto"}

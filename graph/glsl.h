@@ -1,15 +1,19 @@
 #pragma once
 
-// The generated part of a kernel's source: version, work group, parameters, constants, buffers, faults - everything that the spec declares.
+// The generated part of a kernel's source: version, work group, parameters, constants, buffers, faults - everything that the spec
+// declares.
 //
 // In a kernel, beside its own code:
-//   parameters      numbers and vectors by name (uniforms: changing one compiles nothing); booleans as `const bool`; for every choice
+//   parameters      numbers and vectors by name (uniforms: changing one compiles nothing); booleans as `const bool`; for every
+//   choice
 //                   one #define <PARAMETER>_<CHOICE> 0 or 1 (KERNEL_CUBIC)
 //   constants       of the environment that the spec lists, by name
 //   clock           float dt, time; uint step, frame
 //   sizes           uint <domain>_count for every domain that a port of the stage names
-//   storage ports   arrays by name: position[i]. `accumulate` ports are arrays of their scalars, padding included: component c of element i of
-//                   a vec3 is name[4 * i + c]. #include "lib/accumulate.glsl" adds to them; FIRN_FLOAT_ATOMICS says whether the device adds floats
+//   storage ports   arrays by name: position[i]. `accumulate` ports are arrays of their scalars, padding included: component c of
+//   element i of
+//                   a vec3 is name[4 * i + c]. #include "lib/accumulate.glsl" adds to them; FIRN_FLOAT_ATOMICS says whether the
+//                   device adds floats
 //   sampled ports   of buffers: <name>_at(int index); of textures: sampler2D <name> (isampler2D, usampler2D of whole numbers)
 //   uniform ports   by name; arrays where the count is above 1
 //   image ports     image2D <name> (iimage2D, uimage2D)

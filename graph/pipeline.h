@@ -55,8 +55,8 @@ struct PipelineSpec {
 
 // Changes from the command line.
 struct Edits {
-  std::vector<config::Override> set;                          // k=4, stage.param=value, stage.every=2; paths that begin with "scene" are not for us
-  std::vector<std::string> disable;                           // labels
+  std::vector<config::Override> set;  // k=4, stage.param=value, stage.every=2; paths that begin with "scene" are not for us
+  std::vector<std::string> disable;   // labels
   std::vector<std::pair<std::string, config::Node>> replace;  // group -> list of stages
 };
 

@@ -56,9 +56,9 @@ struct BufferAccess {
 
 struct PlannedStage {
   std::string label;
-  StageSpec spec;               // ports and work without those whose condition does not hold
-  ParameterValues parameters;   // every parameter of the spec has a value
-  std::vector<int> buffers;     // per port of `spec`; -1: optional and unbound
+  StageSpec spec;              // ports and work without those whose condition does not hold
+  ParameterValues parameters;  // every parameter of the spec has a value
+  std::vector<int> buffers;    // per port of `spec`; -1: optional and unbound
   std::int64_t every = 1;
   Place place;
 };

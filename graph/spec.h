@@ -20,7 +20,8 @@ struct Condition {
   std::string value;
 };
 
-// A number of elements: a count ("4"), a domain of the environment ("particles"), or one scaled, rounded up ("nodes/256", "particles*64").
+// A number of elements: a count ("4"), a domain of the environment ("particles"), or one scaled, rounded up ("nodes/256",
+// "particles*64").
 using DomainText = std::string;
 
 struct Port {
@@ -62,11 +63,11 @@ struct PortUse {
 
 // One compute dispatch. Kernels are files below shaders/.
 struct Dispatch {
-  std::string kernel;               // "mpm/particles_to_grid.comp"
-  DomainText over;                  // invocations, one per element; empty where `indirect` is given
-  std::string indirect = {};        // port with three uint: groups
-  int group = 64;                   // invocations per work group
-  std::vector<PortUse> uses = {};   // empty: every port of the stage
+  std::string kernel;              // "mpm/particles_to_grid.comp"
+  DomainText over;                 // invocations, one per element; empty where `indirect` is given
+  std::string indirect = {};       // port with three uint: groups
+  int group = 64;                  // invocations per work group
+  std::vector<PortUse> uses = {};  // empty: every port of the stage
   Condition when = {};
 };
 

@@ -29,7 +29,7 @@ bool is_texel(ElementType type);         // rgba8, depth: only in textures
 enum class Access { read, write, read_write, accumulate };
 std::string_view name(Access access);
 std::optional<Access> access(std::string_view name);
-bool reads(Access access);   // the content before the access matters
+bool reads(Access access);  // the content before the access matters
 bool writes(Access access);
 
 enum class Usage { storage, uniform, sampled, image, vertex, indirect, transfer, host, framebuffer };

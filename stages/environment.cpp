@@ -13,23 +13,23 @@ using graph::ElementType;
 // The largest power of two that is at most x: scaling by it does not round.
 double power_of_two_below(double x) { return std::exp2(std::floor(std::log2(x))); }
 
-// Particles that a cell may hold: as seeded, compressed fourfold, wherever snows overlap twofold. More than this, and a fixed-point sum may
-// overflow, which is detected.
+// Particles that a cell may hold: as seeded, compressed fourfold, wherever snows overlap twofold. More than this, and a fixed-point
+// sum may overflow, which is detected.
 double crowd(const scene::Scene& scene) {
   int most = 1;
   for (const scene::Snow& snow : scene.snow) most = std::max(most, snow.per_cell);
   return 8.0 * most;
 }
 
-// Fixed-point scales (powers of two) from bounds on sums over one node. With at most n particles a cell and per axis sum N <= 5/3 over one
-// particle per cell: m_i <= (5/3)^3 n max m_p, |(m v)_i| <= that times max |v|.
+// Fixed-point scales (powers of two) from bounds on sums over one node. With at most n particles a cell and per axis sum N <= 5/3
+// over one particle per cell: m_i <= (5/3)^3 n max m_p, |(m v)_i| <= that times max |v|.
 void add_scales(const Problem& problem, graph::Environment& environment) {
   const double heaviest = problem.particles.mass.empty() ? 1.0 : *std::ranges::max_element(problem.particles.mass);
   const double mass_bound = 125.0 / 27.0 * crowd(problem.scene) * heaviest;
   const double momentum_bound = mass_bound * 2.0 * speed_bound(problem.scene);
   constexpr double range = 2147483647.0;
-  environment.constants.push_back({"mass_scale", ElementType::float1, power_of_two_below(range / mass_bound), "1/kg",
-                                   "fixed-point steps per kg of node mass"});
+  environment.constants.push_back(
+      {"mass_scale", ElementType::float1, power_of_two_below(range / mass_bound), "1/kg", "fixed-point steps per kg of node mass"});
   environment.constants.push_back({"momentum_scale", ElementType::float1, power_of_two_below(range / momentum_bound), "s/(kg m)",
                                    "fixed-point steps per kg m/s of node momentum"});
   environment.constants.push_back({"crowd", ElementType::float1, crowd(problem.scene), "1", "bound of particles in one cell"});
@@ -44,8 +44,8 @@ void add_grid(const scene::Domain& domain, graph::Environment& environment) {
   environment.domains["nodes"].shape = {nz, ny, nx};
   environment.domains["grid_rows"] = count(ny * nz);
   environment.domains["grid_blocks"] = count((nx + 3) / 4 * ((ny + 3) / 4) * ((nz + 3) / 4));
-  environment.constants.push_back({"grid_min", ElementType::vec3, graph::Vector3{domain.min.x(), domain.min.y(), domain.min.z()}, "m",
-                                   "position of node (0, 0, 0)"});
+  environment.constants.push_back({"grid_min", ElementType::vec3, graph::Vector3{domain.min.x(), domain.min.y(), domain.min.z()},
+                                   "m", "position of node (0, 0, 0)"});
   environment.constants.push_back({"grid_cell", ElementType::float1, domain.cell, "m", "distance h of neighbouring nodes"});
   environment.constants.push_back({"grid_nodes", ElementType::ivec3,
                                    graph::Vector3{double(nodes.x()), double(nodes.y()), double(nodes.z())}, "1", "nodes per axis"});
@@ -62,7 +62,8 @@ scene::Bounds visible(const scene::Scene& scene) {
   if (const auto& field = scene.field) {
     const double ground = field->ground.image.empty() ? field->ground.value : std::min(0.0, field->ground.unit_value);
     box.extend(scene::Vector3d(field->origin.x(), ground, field->origin.y()));
-    box.extend(scene::Vector3d(field->origin.x() + field->size.x(), top(field->ground) + top(field->depth), field->origin.y() + field->size.y()));
+    box.extend(scene::Vector3d(field->origin.x() + field->size.x(), top(field->ground) + top(field->depth),
+                               field->origin.y() + field->size.y()));
   }
   if (!scene.domain)
     for (const scene::Body& body : scene.bodies)
@@ -103,7 +104,8 @@ double speed_bound(const scene::Scene& scene) {
     double reach = 0;
     if (const auto* sphere = std::get_if<scene::Sphere>(&snow.what)) reach = sphere->radius;
     if (const auto* box = std::get_if<scene::Box>(&snow.what)) reach = box->half_size.norm();
-    if (const auto* capsule = std::get_if<scene::Capsule>(&snow.what)) reach = (capsule->end - capsule->start).norm() + capsule->radius;
+    if (const auto* capsule = std::get_if<scene::Capsule>(&snow.what))
+      reach = (capsule->end - capsule->start).norm() + capsule->radius;
     fastest = std::max(fastest, snow.velocity.norm() + snow.spin.norm() * reach);
   }
   for (const scene::Body& body : scene.bodies) {

@@ -26,7 +26,8 @@ Port volume(Access access, Usage usage) {
   return port("volume", ElementType::float1, "particles", access, usage, "m3", "initial volume V_p0 of particles");
 }
 Port density(Access access) {
-  Port result = port("density", ElementType::float1, "particles", access, Usage::storage, "kg/m3", "initial density rho_p0 about particles");
+  Port result =
+      port("density", ElementType::float1, "particles", access, Usage::storage, "kg/m3", "initial density rho_p0 about particles");
   result.optional = true;
   return result;
 }
@@ -34,7 +35,8 @@ Port elastic(Access access, Usage usage) {
   return port("elastic", ElementType::mat3, "particles", access, usage, "1", "elastic part FE of the deformation gradient");
 }
 Port plastic_det(Access access, Usage usage) {
-  return port("plastic_det", ElementType::float1, "particles", access, usage, "1", "determinant J_P of the plastic deformation gradient");
+  return port("plastic_det", ElementType::float1, "particles", access, usage, "1",
+              "determinant J_P of the plastic deformation gradient");
 }
 Port material(Access access, Usage usage) {
   return port("material", ElementType::int1, "particles", access, usage, "1", "number of the particle's material");
@@ -43,11 +45,13 @@ Port stress(Access access, Usage usage) {
   return port("stress", ElementType::mat3, "particles", access, usage, "J", "V_p0 P(FE) FE^T, symmetric");
 }
 Port velocity_gradient(Access access, Usage usage) {
-  return port("velocity_gradient", ElementType::mat3, "particles", access, usage, "1/s", "grad v at particles, row: component of v");
+  return port("velocity_gradient", ElementType::mat3, "particles", access, usage, "1/s",
+              "grad v at particles, row: component of v");
 }
 
 Port material_elastic(Access access, Usage usage) {
-  return port("material_elastic", ElementType::vec4, "materials", access, usage, "Pa, Pa, 1, kg/m3", "mu0, lambda0, hardening xi, density");
+  return port("material_elastic", ElementType::vec4, "materials", access, usage, "Pa, Pa, 1, kg/m3",
+              "mu0, lambda0, hardening xi, density");
 }
 Port material_plastic(Access access, Usage usage) {
   return port("material_plastic", ElementType::vec2, "materials", access, usage, "1",
@@ -61,7 +65,8 @@ Port grid_velocity(Access access, Usage usage) {
   return port("grid_velocity", ElementType::vec3, "nodes", access, usage, "m/s", "velocity of nodes, with forces and collisions");
 }
 Port grid_velocity_before(Access access, Usage usage) {
-  return port("grid_velocity_before", ElementType::vec3, "nodes", access, usage, "m/s", "velocity of nodes before forces and collisions");
+  return port("grid_velocity_before", ElementType::vec3, "nodes", access, usage, "m/s",
+              "velocity of nodes before forces and collisions");
 }
 
 std::vector<Port> grid_mass_and_momentum_sums(Access access) {
@@ -74,9 +79,11 @@ std::vector<Port> grid_mass_and_momentum_sums(Access access) {
           when(port("grid_momentum_sum", ElementType::vec3, "nodes", access, usage, "kg m/s", plain), "accumulate", "float")};
 }
 std::vector<Port> grid_force_sums(Access access) {
-  return {when(port("grid_force_sum", ElementType::ivec3, "nodes", access, Usage::storage, "N", "sum over particles, as integers times a scale"),
+  return {when(port("grid_force_sum", ElementType::ivec3, "nodes", access, Usage::storage, "N",
+                    "sum over particles, as integers times a scale"),
                "accumulate", "fixed"),
-          when(port("grid_force_sum", ElementType::vec3, "nodes", access, Usage::storage, "N", "sum over particles"), "accumulate", "float")};
+          when(port("grid_force_sum", ElementType::vec3, "nodes", access, Usage::storage, "N", "sum over particles"), "accumulate",
+               "float")};
 }
 std::vector<Port> grid_sums(Access mass_and_momentum, Access force) {
   return joined({grid_mass_and_momentum_sums(mass_and_momentum), grid_force_sums(force)});
@@ -88,7 +95,8 @@ Port stress_max(Access access) {
 }
 
 Port order(Access access, Usage usage) {
-  return port("order", ElementType::uint1, "particles", access, usage, "1", "numbers of the particles, sorted by cell, then by number");
+  return port("order", ElementType::uint1, "particles", access, usage, "1",
+              "numbers of the particles, sorted by cell, then by number");
 }
 Port optional_order() {
   Port port = order(Access::read);
@@ -100,7 +108,8 @@ Port cell_start(Access access, Usage usage) {
               "place in `order` of every cell's first particle; the next cell of the row gives its end");
 }
 Port active_blocks(Access access) {
-  return port("active_blocks", ElementType::uint1, "grid_blocks", access, Usage::storage, "1", "blocks of 4 x 4 x 4 nodes that particles reach");
+  return port("active_blocks", ElementType::uint1, "grid_blocks", access, Usage::storage, "1",
+              "blocks of 4 x 4 x 4 nodes that particles reach");
 }
 Port active_block_count(Access access) {
   return port("active_block_count", ElementType::uint1, "1", access, Usage::storage, "1", "how many of active_blocks are valid");

@@ -46,8 +46,8 @@ Port active_block_count(Access access);
 Port active_groups(Access access, Usage usage = Usage::storage);
 
 // --- rigid bodies ---
-std::vector<Port> bodies(Access access);           // shape, pose, motion, friction
-std::vector<Port> key_frames(Access access);        // of all bodies, one after another
+std::vector<Port> bodies(Access access);                                   // shape, pose, motion, friction
+std::vector<Port> key_frames(Access access);                               // of all bodies, one after another
 Port body(const char* name, Access access, Usage usage = Usage::storage);  // one of them
 
 // Only where the choice parameter has this value.

@@ -24,7 +24,8 @@ struct Problem {
 // Throws config::InputError where files of the scene cannot be read.
 std::shared_ptr<const Problem> make_problem(scene::Scene scene, Image image, std::string output);
 
-// Domains: particles, materials, nodes, grid_rows, grid_blocks, bodies, key_frames, image, shadow_map. Constants: see environment.cpp.
+// Domains: particles, materials, nodes, grid_rows, grid_blocks, bodies, key_frames, image, shadow_map. Constants: see
+// environment.cpp.
 graph::Environment environment(const Problem& problem);
 
 // Bound of all speeds that the scene can bring about, m/s: initial speeds, bodies, and what gravity adds; for fixed-point scales.

@@ -43,8 +43,8 @@ std::vector<std::string> shortcomings(const Plan& plan, const gpu::Limits& limit
       found.push_back(fmt::format("buffer '{}' needs {} bytes; the device's storage blocks hold {}", buffer.name, buffer.bytes,
                                   limits.storage_block_bytes));
     if (buffer.texture && std::max(buffer.width, buffer.height) > limits.texture_size)
-      found.push_back(fmt::format("image '{}' is {} x {}; the device's textures end at {}", buffer.name, buffer.width, buffer.height,
-                                  limits.texture_size));
+      found.push_back(fmt::format("image '{}' is {} x {}; the device's textures end at {}", buffer.name, buffer.width,
+                                  buffer.height, limits.texture_size));
   }
   for (int s = 0; s < static_cast<int>(plan.stages.size()); ++s) {
     const PlannedStage& stage = plan.stages[static_cast<std::size_t>(s)];
@@ -53,8 +53,8 @@ std::vector<std::string> shortcomings(const Plan& plan, const gpu::Limits& limit
       if (dispatch == nullptr) continue;
       const graph::KernelInterface interface = graph::kernel_interface(plan, s, w, {});
       if (interface.storage_blocks > limits.storage_blocks_compute)
-        found.push_back(fmt::format("{} ({}) needs {} storage blocks; the device has {} per compute shader", stage.label, dispatch->kernel,
-                                    interface.storage_blocks, limits.storage_blocks_compute));
+        found.push_back(fmt::format("{} ({}) needs {} storage blocks; the device has {} per compute shader", stage.label,
+                                    dispatch->kernel, interface.storage_blocks, limits.storage_blocks_compute));
       if (static_cast<std::uint32_t>(dispatch->group) > limits.group_invocations)
         found.push_back(fmt::format("{} ({}) needs work groups of {}; the device's end at {}", stage.label, dispatch->kernel,
                                     dispatch->group, limits.group_invocations));
@@ -64,8 +64,8 @@ std::vector<std::string> shortcomings(const Plan& plan, const gpu::Limits& limit
         const PlannedBuffer& buffer = plan.buffers[static_cast<std::size_t>(stage.buffers[static_cast<std::size_t>(used.port)])];
         const std::uint64_t texels = buffer.count * (buffer.type == graph::ElementType::mat3 ? 3 : 1);
         if (used.usage == graph::Usage::sampled && !buffer.texture && texels > limits.texture_buffer_texels)
-          found.push_back(fmt::format("{} reads '{}' as {} texels; the device's buffer textures hold {}", stage.label, buffer.name, texels,
-                                      limits.texture_buffer_texels));
+          found.push_back(fmt::format("{} reads '{}' as {} texels; the device's buffer textures hold {}", stage.label, buffer.name,
+                                      texels, limits.texture_buffer_texels));
       }
   }
   return found;
@@ -77,9 +77,9 @@ struct Execution::Parts {
   Options options;
   graph::Clock clock;
   Memory memory;
-  std::vector<std::vector<Kernel>> kernels;                // by stage, by work
-  std::vector<gpu::Buffer> parameters;                     // by stage
-  std::vector<std::unique_ptr<graph::HostStage>> host;     // by stage; empty where it has no host work
+  std::vector<std::vector<Kernel>> kernels;             // by stage, by work
+  std::vector<gpu::Buffer> parameters;                  // by stage
+  std::vector<std::unique_ptr<graph::HostStage>> host;  // by stage; empty where it has no host work
   gpu::Buffer clock_block;
   gpu::Buffer faults;  // per stage and kind: count, 0xffffffff - first step
   std::unique_ptr<gpu::TimerRing> timers;
@@ -161,7 +161,8 @@ class Context final : public graph::HostContext {
   void write(std::string_view port, std::span<const std::byte> data) override {
     const std::size_t b = index(port);
     if (data.size() != plan_.buffers[b].bytes)
-      throw std::logic_error(fmt::format("{}: writes {} bytes to '{}', which has {}", stage_.label, data.size(), port, plan_.buffers[b].bytes));
+      throw std::logic_error(
+          fmt::format("{}: writes {} bytes to '{}', which has {}", stage_.label, data.size(), port, plan_.buffers[b].bytes));
     if (plan_.buffers[b].texture)
       memory_.textures[b].upload(data);
     else if (!data.empty())
@@ -169,7 +170,8 @@ class Context final : public graph::HostContext {
   }
   [[nodiscard]] const graph::Clock& clock() const override { return clock_; }
   void set_time_step(double dt) override {
-    if (!stage_.spec.sets_time_step) throw std::logic_error(fmt::format("{} sets the time step, but does not say so", stage_.label));
+    if (!stage_.spec.sets_time_step)
+      throw std::logic_error(fmt::format("{} sets the time step, but does not say so", stage_.label));
     clock_.dt = dt;
   }
 
@@ -253,8 +255,8 @@ void Execution::check_faults() {
   if (worst == slots) return;
   const PlannedStage& stage = parts_->plan.stages[worst / graph::fault_kinds];
   const auto kind = static_cast<graph::Fault>(worst % graph::fault_kinds);
-  throw NumbersError(fmt::format("{} found {} in step {} ({} {})", stage.label, graph::describe(kind), 0xffffffffu - words[2 * worst + 1],
-                                 words[2 * worst], words[2 * worst] == 1 ? "case" : "cases"));
+  throw NumbersError(fmt::format("{} found {} in step {} ({} {})", stage.label, graph::describe(kind),
+                                 0xffffffffu - words[2 * worst + 1], words[2 * worst], words[2 * worst] == 1 ? "case" : "cases"));
 }
 
 graph::Clock& Execution::clock() { return parts_->clock; }

@@ -38,8 +38,8 @@ std::vector<std::string> shortcomings(const graph::Plan& plan, const gpu::Limits
 
 class Execution {
  public:
-  // Allocates buffers, compiles kernels, makes host stages. Throws gpu::DeviceError where the device cannot do it (before anything is
-  // allocated), gpu::ShaderError where a kernel does not compile.
+  // Allocates buffers, compiles kernels, makes host stages. Throws gpu::DeviceError where the device cannot do it (before anything
+  // is allocated), gpu::ShaderError where a kernel does not compile.
   Execution(gpu::Device& device, graph::Plan plan, const graph::Registry& registry, Options options);
   ~Execution();
   Execution(const Execution&) = delete;

@@ -19,15 +19,23 @@ const PlannedStage& stage_of(const Plan& plan, int stage) { return plan.stages[s
 
 gpu::TexelFormat texture_format(ElementType type) {
   switch (type) {
-    case ElementType::rgba8: return gpu::TexelFormat::rgba8;
-    case ElementType::depth: return gpu::TexelFormat::depth32f;
-    case ElementType::float1: return gpu::TexelFormat::r32f;
-    case ElementType::vec2: return gpu::TexelFormat::rg32f;
+    case ElementType::rgba8:
+      return gpu::TexelFormat::rgba8;
+    case ElementType::depth:
+      return gpu::TexelFormat::depth32f;
+    case ElementType::float1:
+      return gpu::TexelFormat::r32f;
+    case ElementType::vec2:
+      return gpu::TexelFormat::rg32f;
     case ElementType::vec3:
-    case ElementType::vec4: return gpu::TexelFormat::rgba32f;
-    case ElementType::int1: return gpu::TexelFormat::r32i;
-    case ElementType::uint1: return gpu::TexelFormat::r32ui;
-    default: throw std::logic_error(fmt::format("no texture holds {}", graph::name(type)));
+    case ElementType::vec4:
+      return gpu::TexelFormat::rgba32f;
+    case ElementType::int1:
+      return gpu::TexelFormat::r32i;
+    case ElementType::uint1:
+      return gpu::TexelFormat::r32ui;
+    default:
+      throw std::logic_error(fmt::format("no texture holds {}", graph::name(type)));
   }
 }
 
@@ -36,19 +44,25 @@ gpu::TexelFormat texel_format(ElementType type) {
   const bool single = graph::components(type) == 1;
   const bool pair = graph::components(type) == 2;
   switch (graph::scalar(type)) {
-    case graph::Scalar::integer: return single ? gpu::TexelFormat::r32i : pair ? gpu::TexelFormat::rg32i : gpu::TexelFormat::rgba32i;
+    case graph::Scalar::integer:
+      return single ? gpu::TexelFormat::r32i : pair ? gpu::TexelFormat::rg32i : gpu::TexelFormat::rgba32i;
     case graph::Scalar::natural:
       return single ? gpu::TexelFormat::r32ui : pair ? gpu::TexelFormat::rg32ui : gpu::TexelFormat::rgba32ui;
-    default: return single ? gpu::TexelFormat::r32f : pair ? gpu::TexelFormat::rg32f : gpu::TexelFormat::rgba32f;
+    default:
+      return single ? gpu::TexelFormat::r32f : pair ? gpu::TexelFormat::rg32f : gpu::TexelFormat::rgba32f;
   }
 }
 
 const std::string& shader_file(const Draw& draw, gpu::ShaderKind kind) {
   switch (kind) {
-    case gpu::ShaderKind::vertex: return draw.vertex;
-    case gpu::ShaderKind::fragment: return draw.fragment;
-    case gpu::ShaderKind::tessellation_control: return draw.tessellation_control;
-    default: return draw.tessellation_evaluation;
+    case gpu::ShaderKind::vertex:
+      return draw.vertex;
+    case gpu::ShaderKind::fragment:
+      return draw.fragment;
+    case gpu::ShaderKind::tessellation_control:
+      return draw.tessellation_control;
+    default:
+      return draw.tessellation_evaluation;
   }
 }
 
@@ -72,11 +86,21 @@ std::pair<std::uint32_t, std::uint32_t> folded(std::uint64_t groups) {
 gpu::DrawState draw_state(const Draw& draw) {
   gpu::DrawState state;
   switch (draw.topology) {
-    case graph::Topology::points: state.topology = gpu::Topology::points; break;
-    case graph::Topology::lines: state.topology = gpu::Topology::lines; break;
-    case graph::Topology::triangles: state.topology = gpu::Topology::triangles; break;
-    case graph::Topology::triangle_strip: state.topology = gpu::Topology::triangle_strip; break;
-    case graph::Topology::patches: state.topology = gpu::Topology::patches; break;
+    case graph::Topology::points:
+      state.topology = gpu::Topology::points;
+      break;
+    case graph::Topology::lines:
+      state.topology = gpu::Topology::lines;
+      break;
+    case graph::Topology::triangles:
+      state.topology = gpu::Topology::triangles;
+      break;
+    case graph::Topology::triangle_strip:
+      state.topology = gpu::Topology::triangle_strip;
+      break;
+    case graph::Topology::patches:
+      state.topology = gpu::Topology::patches;
+      break;
   }
   state.patch_vertices = draw.patch_vertices;
   state.depth_test = draw.depth.empty() ? gpu::DepthTest::off : gpu::DepthTest::less_equal;
@@ -121,8 +145,9 @@ gpu::ShaderSource kernel_source(const Plan& plan, int stage, int work, const std
                                 const graph::DeviceTraits& traits, std::span<const std::filesystem::path> shader_folders) {
   gpu::ShaderSource source;
   source.files.emplace_back("generated");
-  source.text = kind == gpu::ShaderKind::compute ? graph::compute_prelude(plan, stage, work, traits)
-                                                 : graph::draw_prelude(plan, stage, work, kind == gpu::ShaderKind::fragment, traits);
+  source.text = kind == gpu::ShaderKind::compute
+                    ? graph::compute_prelude(plan, stage, work, traits)
+                    : graph::draw_prelude(plan, stage, work, kind == gpu::ShaderKind::fragment, traits);
   gpu::append_file(source, find_shader(file, shader_folders), shader_folders);
   return source;
 }
@@ -151,7 +176,8 @@ Kernel make_kernel(const Plan& plan, int stage_index, int work_index, const Memo
       if (!shader_file(*draw, kind).empty()) add(shader_file(*draw, kind), kind);
     std::vector<const gpu::Texture*> colors;
     for (const std::string& color : draw->colors) colors.push_back(&target_texture(stage, color, memory));
-    kernel.target = gpu::Framebuffer(colors, draw->depth.empty() ? nullptr : &target_texture(stage, draw->depth, memory), stage.label);
+    kernel.target =
+        gpu::Framebuffer(colors, draw->depth.empty() ? nullptr : &target_texture(stage, draw->depth, memory), stage.label);
   } else {
     return kernel;
   }
@@ -171,37 +197,48 @@ void run_kernel(const Plan& plan, int stage_index, int work_index, const Kernel&
     const auto buffer = static_cast<std::size_t>(stage.buffers[static_cast<std::size_t>(binding.port)]);
     const auto at = static_cast<std::uint32_t>(binding.binding);
     switch (binding.usage) {
-      case Usage::storage: gpu::bind_storage(at, memory.buffers[buffer]); break;
-      case Usage::uniform: gpu::bind_uniform(at, memory.buffers[buffer]); break;
+      case Usage::storage:
+        gpu::bind_storage(at, memory.buffers[buffer]);
+        break;
+      case Usage::uniform:
+        gpu::bind_uniform(at, memory.buffers[buffer]);
+        break;
       case Usage::sampled:
         if (binding.texture)
           gpu::bind_texture(at, memory.textures[buffer]);
         else
           gpu::bind_texture(at, memory.texels[buffer]);
         break;
-      case Usage::image: gpu::bind_image(at, memory.textures[buffer]); break;
-      case Usage::indirect: gpu::bind_indirect(memory.buffers[buffer]); break;
+      case Usage::image:
+        gpu::bind_image(at, memory.textures[buffer]);
+        break;
+      case Usage::indirect:
+        gpu::bind_indirect(memory.buffers[buffer]);
+        break;
       case Usage::vertex:
       case Usage::transfer:
       case Usage::host:
-      case Usage::framebuffer: break;
+      case Usage::framebuffer:
+        break;
     }
   }
   if (const auto* dispatch = std::get_if<Dispatch>(&work)) {
     if (!dispatch->indirect.empty()) {
       gpu::dispatch_indirect(0);
     } else if (kernel.elements > 0) {
-      const auto [x, y] = folded((kernel.elements + static_cast<std::uint64_t>(dispatch->group) - 1) /
-                                 static_cast<std::uint64_t>(dispatch->group));
+      const auto [x, y] =
+          folded((kernel.elements + static_cast<std::uint64_t>(dispatch->group) - 1) / static_cast<std::uint64_t>(dispatch->group));
       gpu::dispatch(x, y, 1);
     }
   } else if (const auto* draw = std::get_if<Draw>(&work)) {
     if (draw->clear) {
-      for (int color = 0; color < static_cast<int>(draw->colors.size()); ++color) gpu::clear_color(kernel.target, color, 0, 0, 0, 0);
+      for (int color = 0; color < static_cast<int>(draw->colors.size()); ++color)
+        gpu::clear_color(kernel.target, color, 0, 0, 0, 0);
       if (!draw->depth.empty()) gpu::clear_depth(kernel.target, 1);
     }
     if (kernel.elements > 0 && kernel.vertices > 0)
-      gpu::draw(kernel.target, draw_state(*draw), static_cast<std::uint32_t>(kernel.vertices), static_cast<std::uint32_t>(kernel.elements));
+      gpu::draw(kernel.target, draw_state(*draw), static_cast<std::uint32_t>(kernel.vertices),
+                static_cast<std::uint32_t>(kernel.elements));
   }
 }
 

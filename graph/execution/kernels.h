@@ -20,17 +20,17 @@ graph::DeviceTraits traits_of(const gpu::Device& device);
 struct Memory {
   Memory(const graph::Plan& plan, const gpu::Device& device);
 
-  std::vector<gpu::Buffer> buffers;           // by planned buffer; empty where it is a texture
-  std::vector<gpu::Texture> textures;         // by planned buffer; empty where it is a buffer
-  std::vector<gpu::BufferTexture> texels;     // by planned buffer; empty where nobody samples it
+  std::vector<gpu::Buffer> buffers;        // by planned buffer; empty where it is a texture
+  std::vector<gpu::Texture> textures;      // by planned buffer; empty where it is a buffer
+  std::vector<gpu::BufferTexture> texels;  // by planned buffer; empty where nobody samples it
 };
 
 // One dispatch or draw, ready to run. Host work has an empty program.
 struct Kernel {
   gpu::Program program;
   graph::KernelInterface interface;
-  gpu::Framebuffer target;                    // draws
-  std::uint64_t elements = 0;                 // dispatches: invocations; draws: instances
+  gpu::Framebuffer target;     // draws
+  std::uint64_t elements = 0;  // dispatches: invocations; draws: instances
   std::uint64_t vertices = 0;
 };
 
@@ -42,7 +42,7 @@ gpu::ShaderSource kernel_source(const graph::Plan& plan, int stage, int work, co
                                 const graph::DeviceTraits& traits, std::span<const std::filesystem::path> shader_folders);
 
 // Binds everything the kernel touches, and runs it.
-void run_kernel(const graph::Plan& plan, int stage, int work, const Kernel& kernel, const Memory& memory, const gpu::Buffer& parameters,
-                const gpu::Buffer& clock, const gpu::Buffer& faults);
+void run_kernel(const graph::Plan& plan, int stage, int work, const Kernel& kernel, const Memory& memory,
+                const gpu::Buffer& parameters, const gpu::Buffer& clock, const gpu::Buffer& faults);
 
 }  // namespace firn::execution

@@ -62,7 +62,8 @@ class Placing final : public graph::HostStage {
 
   void run(graph::HostContext& context) override {
     std::vector<std::int32_t> kind, path;
-    std::vector<float> size, position, orientation, velocity, spin, friction, mass, color, path_time, path_position, path_orientation;
+    std::vector<float> size, position, orientation, velocity, spin, friction, mass, color, path_time, path_position,
+        path_orientation;
     for (const scene::Body& body : problem_->scene.bodies) {
       const Placed at = placed(body);
       // The shape's own offset and turn, which key frames have on top.
@@ -87,10 +88,17 @@ class Placing final : public graph::HostStage {
     }
     context.write_integers("body_kind", kind);
     context.write_integers("body_path", path);
-    const std::pair<const char*, const std::vector<float>*> fields[] = {
-        {"body_size", &size},         {"body_position", &position}, {"body_orientation", &orientation}, {"body_velocity", &velocity},
-        {"body_spin", &spin},         {"body_friction", &friction}, {"body_mass", &mass},               {"body_color", &color},
-        {"path_time", &path_time},    {"path_position", &path_position}, {"path_orientation", &path_orientation}};
+    const std::pair<const char*, const std::vector<float>*> fields[] = {{"body_size", &size},
+                                                                        {"body_position", &position},
+                                                                        {"body_orientation", &orientation},
+                                                                        {"body_velocity", &velocity},
+                                                                        {"body_spin", &spin},
+                                                                        {"body_friction", &friction},
+                                                                        {"body_mass", &mass},
+                                                                        {"body_color", &color},
+                                                                        {"path_time", &path_time},
+                                                                        {"path_position", &path_position},
+                                                                        {"path_orientation", &path_orientation}};
     for (const auto& [port, values] : fields) context.write_floats(port, *values);
   }
 
@@ -106,8 +114,8 @@ graph::StageSpec place() {
                         .equation = "",
                         .ports = {},
                         .work = {graph::HostWork{}}};
-  for (const char* name : {"body_kind", "body_size", "body_position", "body_orientation", "body_velocity", "body_spin", "body_friction",
-                           "body_mass", "body_path", "body_color"})
+  for (const char* name : {"body_kind", "body_size", "body_position", "body_orientation", "body_velocity", "body_spin",
+                           "body_friction", "body_mass", "body_path", "body_color"})
     spec.ports.push_back(mpm::body(name, Access::write, Usage::host));
   for (graph::Port port : mpm::key_frames(Access::write)) {
     port.usage = Usage::host;

@@ -10,11 +10,14 @@ graph::StageSpec active_blocks_stage() {
     return Port{.name = name, .type = ElementType::uint1, .domain = domain, .access = read_write, .unit = "1", .doc = doc};
   };
   return {.name = "mpm.active_blocks",
-          .doc = "Lists the blocks of the grid that particles reach, so that later stages leave out empty space; clears the blocks of the last step",
+          .doc =
+              "Lists the blocks of the grid that particles reach, so that later stages leave out empty space; clears the blocks of "
+              "the last step",
           .equation = "",
           .ports = {position(read), order(read), cell_start(read), active_blocks(read_write), active_block_count(read_write),
                     active_groups(read_write), grid_mass(write), grid_velocity(write), grid_velocity_before(write),
-                    own("block_mark", "grid_blocks", "1 where particles reach the block"), own("block_counter", "1", "length of the list")},
+                    own("block_mark", "grid_blocks", "1 where particles reach the block"),
+                    own("block_counter", "1", "length of the list")},
           .constants = {"grid_min", "grid_cell", "grid_nodes"},
           .work = {
               graph::Dispatch{.kernel = "mpm/clear_active.comp",

@@ -28,24 +28,33 @@ graph::StageSpec gather_to_grid() {
                            .when = {"nodes", nodes}};
   };
   return {.name = "mpm.gather_to_grid",
-          .doc = "Mass, momentum and forces of nodes, gathered from sorted particles: what clear_grid, particles_to_grid and grid_forces do "
-                 "with `accumulate: float`, without atomics",
+          .doc =
+              "Mass, momentum and forces of nodes, gathered from sorted particles: what clear_grid, particles_to_grid and "
+              "grid_forces do "
+              "with `accumulate: float`, without atomics",
           .equation = "[M 3.4 steps 1, 3]",
-          .ports = joined({{position(read), velocity(read), mass(read), stress(read), order(read), cell_start(read, Usage::sampled),
-                            {.name = "packed_state",
-                             .type = ElementType::vec4,
-                             .domain = "particles*3",
-                             .access = read_write,
-                             .unit = "mixed",
-                             .doc = "position, velocity and stress of particles in sorted order"},
-                            {.name = "packed_mass",
-                             .type = ElementType::float1,
-                             .domain = "particles",
-                             .access = read_write,
-                             .unit = "kg",
-                             .doc = "mass of particles in sorted order"},
+          .ports = joined({{
+                               position(read),
+                               velocity(read),
+                               mass(read),
+                               stress(read),
+                               order(read),
+                               cell_start(read, Usage::sampled),
+                               {.name = "packed_state",
+                                .type = ElementType::vec4,
+                                .domain = "particles*3",
+                                .access = read_write,
+                                .unit = "mixed",
+                                .doc = "position, velocity and stress of particles in sorted order"},
+                               {.name = "packed_mass",
+                                .type = ElementType::float1,
+                                .domain = "particles",
+                                .access = read_write,
+                                .unit = "kg",
+                                .doc = "mass of particles in sorted order"},
                            },
-                           sums(grid_sums(write, write)), node_choice_ports()}),
+                           sums(grid_sums(write, write)),
+                           node_choice_ports()}),
           .parameters = {kernel_parameter(), nodes_parameter()},
           .constants = {"grid_min", "grid_cell", "grid_nodes"},
           .work = {
@@ -58,7 +67,8 @@ graph::StageSpec gather_to_grid() {
                                        {"order", read},
                                        {"packed_state", write},
                                        {"packed_mass", write}}},
-              gather("all"), gather("active"),
+              gather("all"),
+              gather("active"),
           }};
 }
 

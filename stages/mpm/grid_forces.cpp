@@ -8,7 +8,8 @@ graph::StageSpec grid_forces() {
   return {.name = "mpm.grid_forces",
           .doc = "Scatters the forces of stressed particles to the nodes about them, one invocation per particle and node",
           .equation = "[M 26, 32]",
-          .ports = joined({{position(Access::read), stress(Access::read), stress_max(Access::read)}, grid_force_sums(Access::accumulate)}),
+          .ports = joined(
+              {{position(Access::read), stress(Access::read), stress_max(Access::read)}, grid_force_sums(Access::accumulate)}),
           .parameters = {kernel_parameter(), accumulate_parameter()},
           .constants = {"grid_min", "grid_cell", "grid_nodes", "crowd"},
           .faults = {graph::Fault::overflow},

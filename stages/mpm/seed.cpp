@@ -37,7 +37,8 @@ class Seeding final : public graph::HostStage {
     for (const scene::Material& material : problem_->scene.materials) {
       for (const double value : {scene::lame_mu(material), scene::lame_lambda(material), material.hardening, material.density})
         elastic.push_back(static_cast<float>(value));
-      for (const double value : {material.critical_compression, material.critical_stretch}) plastic.push_back(static_cast<float>(value));
+      for (const double value : {material.critical_compression, material.critical_stretch})
+        plastic.push_back(static_cast<float>(value));
     }
     context.write_floats("material_elastic", elastic);
     context.write_floats("material_plastic", plastic);

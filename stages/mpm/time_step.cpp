@@ -17,7 +17,8 @@ class TimeStepping final : public graph::HostStage {
   void run(graph::HostContext& context) override {
     const auto bits = static_cast<std::uint32_t>(context.read_integers("fastest").at(0));
     const double fastest = std::bit_cast<float>(bits);
-    if (!(fastest > 0) || !std::isfinite(fastest)) return;  // nothing moves; what is not a number is told by the stages that meet it
+    if (!(fastest > 0) || !std::isfinite(fastest))
+      return;  // nothing moves; what is not a number is told by the stages that meet it
     const double limit = problem_->scene.time.cfl * problem_->scene.domain->cell / fastest;
     // The rest of the frame in equal parts, so that no tiny step remains.
     const double asked = context.clock().dt;
@@ -44,21 +45,24 @@ graph::StageSpec time_step() {
     port.when = automatic;
     return port;
   };
-  return {.name = "mpm.time_step",
-          .doc = "With `dt: auto` in the scene: the length of the step by the CFL condition on particle speed and speed of sound; else nothing",
-          .equation = "dt <= cfl h / (|v| + sqrt((lambda + 2 mu) / rho))",
-          .ports = {only(velocity(read)), only(plastic_det(read)), only(material(read)), only(material_elastic(read)), fastest},
-          .sets_time_step = true,
-          .work = {graph::Dispatch{.kernel = "mpm/time_step_begin.comp", .over = "1", .uses = {{"fastest", write}}, .when = automatic},
-                   graph::Dispatch{.kernel = "mpm/time_step.comp",
-                                   .over = "particles",
-                                   .uses = {{"velocity", read},
-                                            {"plastic_det", read},
-                                            {"material", read},
-                                            {"material_elastic", read},
-                                            {"fastest", accumulate}},
-                                   .when = automatic},
-                   graph::HostWork{.uses = {{"fastest", read, Usage::host}}, .when = automatic}}};
+  return {
+      .name = "mpm.time_step",
+      .doc =
+          "With `dt: auto` in the scene: the length of the step by the CFL condition on particle speed and speed of sound; else "
+          "nothing",
+      .equation = "dt <= cfl h / (|v| + sqrt((lambda + 2 mu) / rho))",
+      .ports = {only(velocity(read)), only(plastic_det(read)), only(material(read)), only(material_elastic(read)), fastest},
+      .sets_time_step = true,
+      .work = {graph::Dispatch{.kernel = "mpm/time_step_begin.comp", .over = "1", .uses = {{"fastest", write}}, .when = automatic},
+               graph::Dispatch{.kernel = "mpm/time_step.comp",
+                               .over = "particles",
+                               .uses = {{"velocity", read},
+                                        {"plastic_det", read},
+                                        {"material", read},
+                                        {"material_elastic", read},
+                                        {"fastest", accumulate}},
+                               .when = automatic},
+               graph::HostWork{.uses = {{"fastest", read, Usage::host}}, .when = automatic}}};
 }
 
 graph::HostFactory time_stepping(std::shared_ptr<const Problem> problem) {

@@ -1,10 +1,10 @@
 #include "tests/stages/harness.h"
 
+#include <unistd.h>
+
 #include <cmath>
 #include <cstring>
 #include <fstream>
-
-#include <unistd.h>
 
 namespace firn::test {
 namespace {
@@ -31,8 +31,8 @@ gpu::Device& device() {
 
 std::vector<std::filesystem::path> shader_folders() { return {std::filesystem::path(FIRN_SOURCE_DIR) / "shaders"}; }
 
-Arrays run_pipeline(const std::string& yaml, const graph::Environment& environment, const graph::Registry& registry, const Arrays& in, double dt,
-                    int steps, bool barriers_all) {
+Arrays run_pipeline(const std::string& yaml, const graph::Environment& environment, const graph::Registry& registry,
+                    const Arrays& in, double dt, int steps, bool barriers_all) {
   config::Diagnostics diagnostics;
   const std::string file = temporary_file(yaml);
   const graph::PipelineSpec pipeline = graph::load_pipeline(file, {}, diagnostics);

@@ -31,16 +31,16 @@ struct StageRun {
   Arrays in;
 };
 
-// Every buffer of the stage after one run. Throws execution::NumbersError where it reported a fault, config::InputError where it does not
-// compile.
+// Every buffer of the stage after one run. Throws execution::NumbersError where it reported a fault, config::InputError where it
+// does not compile.
 Arrays run_stage(const StageRun& run);
 
 // The same through any pipeline text with several stages; `steps` times.
-Arrays run_pipeline(const std::string& yaml, const graph::Environment& environment, const graph::Registry& registry, const Arrays& in, double dt,
-                    int steps, bool barriers_all = false);
+Arrays run_pipeline(const std::string& yaml, const graph::Environment& environment, const graph::Registry& registry,
+                    const Arrays& in, double dt, int steps, bool barriers_all = false);
 
-// An environment for particles on a grid, without a scene: domains particles, nodes, grid_rows, grid_blocks, materials, bodies, key_frames and
-// the constants grid_min, grid_cell, grid_nodes, gravity, mass_scale, momentum_scale, crowd.
+// An environment for particles on a grid, without a scene: domains particles, nodes, grid_rows, grid_blocks, materials, bodies,
+// key_frames and the constants grid_min, grid_cell, grid_nodes, gravity, mass_scale, momentum_scale, crowd.
 struct GridSetup {
   std::uint64_t particles = 0, materials = 1, bodies = 0, key_frames = 0;
   std::array<double, 3> grid_min{0, 0, 0};

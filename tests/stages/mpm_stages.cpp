@@ -83,7 +83,8 @@ TEST_CASE("particles_to_grid gives the reference's mass and momentum") {
     CHECK(relative_error(real.floats.at("grid_momentum_sum"), flat(expected.momentum)) <= 1e-5);
     const Arrays fixed = run_stage(stage("mpm.particles_to_grid", options(kernel, "fixed"), snow, in));
     CHECK(relative_error(descaled(fixed.integers.at("grid_mass_sum"), scale_of(snow, "mass_scale")), flat(expected.mass)) <= 1e-4);
-    CHECK(relative_error(descaled(fixed.integers.at("grid_momentum_sum"), scale_of(snow, "momentum_scale")), flat(expected.momentum)) <= 1e-4);
+    CHECK(relative_error(descaled(fixed.integers.at("grid_momentum_sum"), scale_of(snow, "momentum_scale")),
+                         flat(expected.momentum)) <= 1e-4);
   }
 }
 
@@ -97,8 +98,8 @@ TEST_CASE("initial_density gives the reference's density and volume") {
     const std::vector<double> density = ref::initial_density(expected, grid, snow.grid, kernel.reference);
     Arrays in = snow.arrays({"position", "mass", "volume"});
     in.floats["grid_mass"] = flat(grid.mass);
-    const Arrays out = run_stage(
-        stage("mpm.initial_density", std::string("{bind: {density: density}, kernel: ") + kernel.kernel + "}", snow, in));
+    const Arrays out =
+        run_stage(stage("mpm.initial_density", std::string("{bind: {density: density}, kernel: ") + kernel.kernel + "}", snow, in));
     CHECK(relative_error(out.floats.at("density"), flat(density)) <= 1e-5);
     CHECK(relative_error(out.floats.at("volume"), flat(expected.volume)) <= 1e-5);
   }
@@ -148,14 +149,16 @@ TEST_CASE("sort, active_blocks and gather_to_grid give the reference's mass, mom
       in.floats["stress"] = flat(stress);
       firn::graph::Environment environment = grid_environment(snow.setup());
       environment.provided = {"position", "velocity", "mass", "stress"};
-      const std::string pipeline = std::string("firn: 1\nstep:\n  - mpm.sort\n  - mpm.active_blocks\n  - mpm.gather_to_grid: {kernel: ") +
-                                   kernel.kernel + ", nodes: " + nodes + "}\n";
+      const std::string pipeline =
+          std::string("firn: 1\nstep:\n  - mpm.sort\n  - mpm.active_blocks\n  - mpm.gather_to_grid: {kernel: ") + kernel.kernel +
+          ", nodes: " + nodes + "}\n";
       // Twice: the second sort must not see anything of the first.
       const Arrays out = run_pipeline(pipeline, environment, firn::stages::all_stages(nullptr), in, 0, 2);
       const ref::GridState expected = ref::particles_to_grid(snow.particles, snow.grid, kernel.reference);
       CHECK(relative_error(out.floats.at("grid_mass_sum"), flat(expected.mass)) <= 1e-5);
       CHECK(relative_error(out.floats.at("grid_momentum_sum"), flat(expected.momentum)) <= 1e-5);
-      CHECK(relative_error(out.floats.at("grid_force_sum"), flat(ref::grid_forces(snow.particles, stress, snow.grid, kernel.reference))) <= 1e-5);
+      CHECK(relative_error(out.floats.at("grid_force_sum"),
+                           flat(ref::grid_forces(snow.particles, stress, snow.grid, kernel.reference))) <= 1e-5);
       const std::vector<std::int32_t>& order = out.integers.at("order");
       const std::vector<std::int32_t>& cells = out.integers.at("particle_cell");
       for (std::size_t i = 1; i < order.size(); ++i) {
@@ -191,7 +194,8 @@ TEST_CASE("grid_update takes fixed-point sums as what they stand for") {
   RandomSnow snow(seed());
   ref::GridState expected = ref::particles_to_grid(snow.particles, snow.grid, ref::Kernel::cubic);
   const double largest = 64;
-  const double scales[] = {scale_of(snow, "mass_scale"), scale_of(snow, "momentum_scale"), force_scale(snow, static_cast<float>(largest))};
+  const double scales[] = {scale_of(snow, "mass_scale"), scale_of(snow, "momentum_scale"),
+                           force_scale(snow, static_cast<float>(largest))};
   Arrays in;
   expected.force.assign(expected.mass.size(), Vector3d::Zero());
   for (std::size_t i = 0; i < expected.mass.size(); ++i) {
@@ -215,7 +219,8 @@ TEST_CASE("grid_collide acts as the reference does, for every kind of body") {
   INFO("seed " << seed());
   RandomSnow snow(seed());
   ref::GridState expected = random_grid(snow, ref::Kernel::cubic);
-  Arrays in = snow.arrays({"body_kind", "body_size", "body_position", "body_orientation", "body_velocity", "body_spin", "body_friction"});
+  Arrays in =
+      snow.arrays({"body_kind", "body_size", "body_position", "body_orientation", "body_velocity", "body_spin", "body_friction"});
   in.floats["grid_mass"] = flat(expected.mass);
   in.floats["grid_velocity"] = flat(expected.velocity);
   ref::grid_collide(expected, snow.grid, snow.colliders);
@@ -227,8 +232,8 @@ TEST_CASE("grid_collide acts as the reference does, for every kind of body") {
 TEST_CASE("particle_collide acts as the reference does, for every kind of body") {
   INFO("seed " << seed());
   RandomSnow snow(seed(), 3000);
-  const Arrays in = snow.arrays({"position", "velocity", "body_kind", "body_size", "body_position", "body_orientation", "body_velocity",
-                                 "body_spin", "body_friction"});
+  const Arrays in = snow.arrays({"position", "velocity", "body_kind", "body_size", "body_position", "body_orientation",
+                                 "body_velocity", "body_spin", "body_friction"});
   ref::Particles expected = snow.particles;
   ref::particle_collide(expected, snow.colliders);
   const Arrays out = run_stage(stage("mpm.particle_collide", "{}", snow, in));
@@ -247,7 +252,8 @@ TEST_CASE("grid_to_particles gives the reference's velocities and gradients") {
     in.floats["grid_velocity_before"] = flat(grid.velocity_before);
     ref::Particles expected = snow.particles;
     const std::vector<Matrix3d> gradient = ref::grid_to_particles(expected, grid, snow.grid, kernel.reference, single(0.9));
-    const Arrays out = run_stage(stage("mpm.grid_to_particles", std::string("{flip: 0.9, kernel: ") + kernel.kernel + "}", snow, in));
+    const Arrays out =
+        run_stage(stage("mpm.grid_to_particles", std::string("{flip: 0.9, kernel: ") + kernel.kernel + "}", snow, in));
     CHECK(relative_error(out.floats.at("velocity"), flat(expected.velocity)) <= 1e-5);
     CHECK(relative_error(out.floats.at("velocity_gradient"), flat(gradient)) <= 1e-5);
   }
@@ -291,6 +297,7 @@ TEST_CASE("bodies.integrate moves bodies as the reference does") {
     CHECK(turned.angularDistance(expected[b].orientation) <= 1e-3);
     CHECK(std::abs(turned.dot(expected[b].orientation)) == Approx(1).margin(1e-6));
     for (int axis = 0; axis < 3; ++axis)
-      CHECK(out.floats.at("body_position")[3 * b + static_cast<std::size_t>(axis)] == Approx(expected[b].position[axis]).epsilon(1e-6));
+      CHECK(out.floats.at("body_position")[3 * b + static_cast<std::size_t>(axis)] ==
+            Approx(expected[b].position[axis]).epsilon(1e-6));
   }
 }

@@ -16,7 +16,8 @@ std::string pipeline_file(const std::string& name) { return std::string(FIRN_SOU
 
 // A scene text as a file that lives as long as this.
 struct SceneFile {
-  explicit SceneFile(const std::string& text) : path((std::filesystem::temp_directory_path() / ("firn-scene-" + std::to_string(getpid()) + ".yaml")).string()) {
+  explicit SceneFile(const std::string& text)
+      : path((std::filesystem::temp_directory_path() / ("firn-scene-" + std::to_string(getpid()) + ".yaml")).string()) {
     std::ofstream(path) << text;
   }
   ~SceneFile() { std::filesystem::remove(path); }
@@ -25,7 +26,8 @@ struct SceneFile {
 
 // A pipeline on a scene, ready to step. Frames are left out: nothing is drawn.
 struct Simulation {
-  Simulation(const std::string& pipeline, const std::string& scene_text, std::vector<std::string> set = {}, bool barriers_all = false)
+  Simulation(const std::string& pipeline, const std::string& scene_text, std::vector<std::string> set = {},
+             bool barriers_all = false)
       : scene(scene_text) {
     firn::app::Inputs inputs;
     inputs.pipeline = pipeline_file(pipeline);
@@ -81,8 +83,8 @@ Vector3d mean(const std::vector<Vector3d>& values) {
   return sum / static_cast<double>(values.size());
 }
 
-// About 1,000 particles: a snowball that is thrown into a corner of a plane, a sphere and a box, so that everything happens within 50 steps.
-// No surface passes exactly through nodes: there rounding would decide whether a node is inside.
+// About 1,000 particles: a snowball that is thrown into a corner of a plane, a sphere and a box, so that everything happens within
+// 50 steps. No surface passes exactly through nodes: there rounding would decide whether a node is inside.
 const char* const collision_scene = R"(
 firn: 1
 name: collision
@@ -140,8 +142,9 @@ struct Variant {
   const char* kernel;
   const char* accumulate;  // empty: the pipeline has no such choice
 };
-const Variant variants[] = {{"mpm_thesis", "cubic", "fixed"},     {"mpm_thesis", "cubic", "float"}, {"mpm_thesis", "quadratic", "fixed"},
-                            {"mpm_thesis", "quadratic", "float"}, {"mpm_snow", "cubic", ""},        {"mpm_snow", "quadratic", ""}};
+const Variant variants[] = {
+    {"mpm_thesis", "cubic", "fixed"},     {"mpm_thesis", "cubic", "float"}, {"mpm_thesis", "quadratic", "fixed"},
+    {"mpm_thesis", "quadratic", "float"}, {"mpm_snow", "cubic", ""},        {"mpm_snow", "quadratic", ""}};
 
 std::vector<std::string> settings(const Variant& variant) {
   std::vector<std::string> set{std::string("kernel=") + variant.kernel};
@@ -159,7 +162,8 @@ TEST_CASE("50 steps stay within 1e-3 of a cell of the double-precision run") {
     CHECK(expected.particles.count() > 900);
     CHECK(expected.particles.count() < 1100);
     expected.settings.kernel = std::string(variant.kernel) == "cubic" ? ref::Kernel::cubic : ref::Kernel::quadratic;
-    for (int i = 0; i < 50; ++i) ref::step(expected.particles, expected.grid, expected.materials, expected.colliders, expected.settings);
+    for (int i = 0; i < 50; ++i)
+      ref::step(expected.particles, expected.grid, expected.materials, expected.colliders, expected.settings);
     simulation.steps(50);
     const std::vector<Vector3d> x = simulation.vectors("position");
     double worst = 0, moved = 0;

@@ -19,8 +19,7 @@ RandomSnow::RandomSnow(std::uint64_t seed, int count) : random(seed) {
   const auto vector = [&](double size) { return Vector3d(uniform(-size, size), uniform(-size, size), uniform(-size, size)); };
   for (int p = 0; p < count; ++p) {
     Vector3d x;
-    for (int axis = 0; axis < 3; ++axis)
-      x[axis] = grid.min[axis] + grid.h * uniform(2, grid.nodes[axis] - 3);
+    for (int axis = 0; axis < 3; ++axis) x[axis] = grid.min[axis] + grid.h * uniform(2, grid.nodes[axis] - 3);
     particles.add(single(x), single(vector(5)), single(uniform(0.5, 2) * 1e-2), single(uniform(1, 4) * 1e-5), p % 2);
     Matrix3d f = Matrix3d::Identity(), g;
     for (int i = 0; i < 9; ++i) f.data()[i] += uniform(-0.02, 0.02);
@@ -60,14 +59,17 @@ GridSetup RandomSnow::setup() const {
 
 Arrays RandomSnow::arrays(std::initializer_list<const char*> ports) const {
   Arrays all;
-  all.floats = {{"position", flat(particles.position)}, {"velocity", flat(particles.velocity)}, {"mass", flat(particles.mass)},
-                {"volume", flat(particles.volume)},     {"elastic", flat(particles.elastic)},   {"plastic_det", flat(particles.plastic_det)},
+  all.floats = {{"position", flat(particles.position)}, {"velocity", flat(particles.velocity)},
+                {"mass", flat(particles.mass)},         {"volume", flat(particles.volume)},
+                {"elastic", flat(particles.elastic)},   {"plastic_det", flat(particles.plastic_det)},
                 {"velocity_gradient", flat(gradient)}};
   all.integers["material"] = {particles.material.begin(), particles.material.end()};
   for (const reference::Material& m : materials) {
     const reference::Lame lame = reference::lame(m);
-    for (const double value : {lame.mu, lame.lambda, m.hardening, m.density}) all.floats["material_elastic"].push_back(static_cast<float>(value));
-    for (const double value : {m.critical_compression, m.critical_stretch}) all.floats["material_plastic"].push_back(static_cast<float>(value));
+    for (const double value : {lame.mu, lame.lambda, m.hardening, m.density})
+      all.floats["material_elastic"].push_back(static_cast<float>(value));
+    for (const double value : {m.critical_compression, m.critical_stretch})
+      all.floats["material_plastic"].push_back(static_cast<float>(value));
   }
   const auto append = [](std::vector<float>& to, std::initializer_list<double> values) {
     for (const double value : values) to.push_back(static_cast<float>(value));

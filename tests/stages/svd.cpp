@@ -36,9 +36,13 @@ const Kind kinds[] = {
     {"rotation", rotation},
     {"reflected", [](std::mt19937_64& e) { return Matrix3d(rotation(e) * Eigen::Vector3d(1, 1, -1).asDiagonal() * rotation(e)); }},
     {"rank 1", [](std::mt19937_64& e) { return Matrix3d(random_vector(e) * random_vector(e).transpose()); }},
-    {"rank 2", [](std::mt19937_64& e) { return Matrix3d(rotation(e) * Eigen::Vector3d(normal(e), normal(e), 0).asDiagonal() * rotation(e)); }},
+    {"rank 2",
+     [](std::mt19937_64& e) {
+       return Matrix3d(rotation(e) * Eigen::Vector3d(normal(e), normal(e), 0).asDiagonal() * rotation(e));
+     }},
     {"zero", [](std::mt19937_64&) { return Matrix3d(Matrix3d::Zero()); }},
-    {"of very different sizes", [](std::mt19937_64& e) { return Matrix3d(std::pow(10, 8 * std::tanh(normal(e))) * random_matrix(e)); }},
+    {"of very different sizes",
+     [](std::mt19937_64& e) { return Matrix3d(std::pow(10, 8 * std::tanh(normal(e))) * random_matrix(e)); }},
     {"diagonal", [](std::mt19937_64& e) { return Matrix3d(random_vector(e).asDiagonal()); }},
 };
 
@@ -57,7 +61,9 @@ firn::graph::Registry svd_stage() {
   return registry;
 }
 
-Matrix3d row_major(const float* values) { return Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(values).cast<double>(); }
+Matrix3d row_major(const float* values) {
+  return Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(values).cast<double>();
+}
 
 }  // namespace
 
@@ -79,7 +85,8 @@ TEST_CASE("singular values of a million matrices of every kind are accurate in s
     const Arrays out = run_pipeline("firn: 1\nstep: [test.svd]\n", environment, svd_stage(), in, 0, 1);
     double rebuilt = 0, orthogonal = 0, determinant = 0, order = 0;
     for (std::size_t i = 0; i < per_kind; ++i) {
-      const Matrix3d f = row_major(&matrices[9 * i]), u = row_major(&out.floats.at("u")[9 * i]), v = row_major(&out.floats.at("v")[9 * i]);
+      const Matrix3d f = row_major(&matrices[9 * i]), u = row_major(&out.floats.at("u")[9 * i]),
+                     v = row_major(&out.floats.at("v")[9 * i]);
       const Eigen::Vector3d s = Eigen::Map<const Eigen::Vector3f>(&out.floats.at("s")[3 * i]).cast<double>();
       REQUIRE((u.allFinite() && v.allFinite() && s.allFinite()));
       const double size = f.norm() > 0 ? f.norm() : 1;
