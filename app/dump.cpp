@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 
 #include "config/diagnostics.h"
 #include "config/nearest.h"
@@ -11,6 +12,8 @@
 
 namespace firn::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 template <typename T>
 void write_as(const std::string& file, const std::vector<std::uint64_t>& shape, std::span<const std::byte> bytes) {
@@ -38,6 +41,9 @@ std::vector<Dump> parse_dumps(const std::vector<std::string>& words, const graph
     if (std::find(names.begin(), names.end(), dump.buffer) == names.end())
       diagnostics.error(place,
                         fmt::format("no buffer '{}' in this pipeline{}", dump.buffer, config::suggestion(dump.buffer, names)));
+    // Told now, not after hours of simulation.
+    if (const fs::path folder = fs::path(dump.file).parent_path(); !folder.empty() && !fs::is_directory(folder))
+      diagnostics.error(place, fmt::format("there is no folder '{}'", folder.string()));
     dumps.push_back(dump);
   }
   config::throw_if_errors(diagnostics);

@@ -82,8 +82,15 @@ Loaded load(const Inputs& inputs, const std::string& output) {
   Loaded loaded;
   config::Diagnostics& diagnostics = loaded.diagnostics;
   graph::Edits edits;
-  for (const std::string& text : inputs.set) edits.set.push_back(config::parse_override(text, diagnostics));
-  std::erase_if(edits.set, [](const config::Override& change) { return change.path.empty(); });
+  for (const std::string& text : inputs.set) {
+    // One that cannot be read is not applied: its value would only bring errors of its own.
+    config::Diagnostics of_set;
+    config::Override change = config::parse_override(text, of_set);
+    if (change.path == std::vector<std::string>{"scene"})
+      of_set.error(change.place, "write scene.<key>=<value> for a part of the scene, or --scene FILE for another one");
+    if (!of_set.has_errors()) edits.set.push_back(std::move(change));
+    diagnostics.append(of_set);
+  }
   edits.disable = inputs.disable;
   const stages::Image image = read_image_size(inputs.image, diagnostics);
 

@@ -5,10 +5,12 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <new>
 
 #include "app/verbs.h"
 #include "app/version.h"
 #include "config/diagnostics.h"
+#include "config/nearest.h"
 #include "gpu/device.h"
 #include "gpu/program.h"
 #include "graph/execution/execution.h"
@@ -31,6 +33,9 @@ int guarded(const firn::app::Action& action) {
     return Status::numbers_broke;
   } catch (const firn::gpu::ShaderError& error) {
     fmt::print(stderr, "{}\n", error.what());
+    return Status::failed;
+  } catch (const std::bad_alloc&) {
+    spdlog::error("this machine's memory does not suffice; a larger cell or fewer particles need less");
     return Status::failed;
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());
@@ -74,7 +79,14 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& success) {
     return program.exit(success);
   } catch (const CLI::ParseError& error) {
-    program.exit(error);
+    if (const std::vector<std::string> rest = program.remaining();
+        program.get_subcommands().empty() && !rest.empty() && !rest.front().starts_with('-')) {
+      std::vector<std::string> verbs;
+      for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; })) verbs.push_back(verb->get_name());
+      fmt::print(stderr, "no verb '{}'{}\n", rest.front(), firn::config::suggestion(rest.front(), verbs));
+    } else {
+      program.exit(error);
+    }
     return Status::bad_input;
   }
   set_up_log(verbose, quiet);

@@ -53,7 +53,8 @@ void write_manifest(const std::string& file, const nlohmann::json& manifest) {
   const std::string beside = file + ".part";
   {
     std::ofstream out(beside);
-    out << manifest.dump(2) << '\n';
+    // File names need not be UTF-8, JSON must be.
+    out << manifest.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
     out.flush();
     if (!out) throw std::runtime_error(fmt::format("cannot write {}", file));
   }

@@ -115,8 +115,8 @@ void add_run(CLI::App& program, Action& action) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* verb = program.add_subcommand("run", "Simulate: pictures, video, data, and a manifest of the run");
   add_inputs(*verb, options->inputs);
-  verb->add_option("--steps", options->steps, "Stop after so many steps");
-  verb->add_option("--frames", options->frames, "Stop after so many frames")->excludes("--steps");
+  verb->add_option("--steps", options->steps, "Stop after so many steps")->check(CLI::NonNegativeNumber);
+  verb->add_option("--frames", options->frames, "Stop after so many frames")->check(CLI::NonNegativeNumber)->excludes("--steps");
   verb->add_option("--out", options->output, "Folder for results (default: out/<pipeline>)");
   verb->add_option("--dump", options->dumps, "BUFFER=FILE.npy: write a buffer at the end")->allow_extra_args(false);
   verb->add_option("--device", options->device,

@@ -93,6 +93,7 @@ Program::Program(std::span<const std::pair<ShaderKind, ShaderSource>> shaders, c
     std::string errors;
     for (const auto& [kind, source] : shaders) {
       const Shader& shader = *compiled.emplace_back(std::make_unique<Shader>(kind));
+      if (!shader.id) context.check();  // a kind that the driver does not know
       const std::string problem = compile_errors(shader.id, source);
       if (!problem.empty()) errors += (errors.empty() ? "" : "\n") + problem;
       glAttachShader(id_, shader.id);

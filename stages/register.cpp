@@ -26,7 +26,7 @@
 
 namespace firn::stages {
 
-graph::Registry all_stages(std::shared_ptr<const Problem> problem) {
+graph::Registry all_stages(const std::shared_ptr<const Problem>& problem) {
   graph::Registry registry;
   registry.add(bodies::integrate());
   registry.add(bodies::place(), bodies::placing(problem));

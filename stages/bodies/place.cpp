@@ -6,7 +6,6 @@ namespace firn::stages::bodies {
 namespace {
 
 using graph::Access;
-using graph::ElementType;
 using graph::Usage;
 
 enum Kind : std::int32_t { half_space = 0, sphere = 1, box = 2, capsule = 3 };  // as shaders/lib/bodies.glsl has it

@@ -221,4 +221,25 @@ Violations check_machine_paths(const std::vector<SourceFile>& files) {
   return violations;
 }
 
+Violations check_test_names(const std::vector<SourceFile>& files) {
+  constexpr std::string_view start = "TEST_CASE(\"";
+  Violations violations;
+  for (const SourceFile& file : files) {
+    if (room_of(file.path) != "tests") continue;
+    int number = 0;
+    for (const std::string& line : lines_of(file.text)) {
+      ++number;
+      if (!line.starts_with(start)) continue;
+      const std::string name = line.substr(start.size(), line.find_first_of('"', start.size()) - start.size());
+      const auto brackets = std::count(name.begin(), name.end(), '[') - std::count(name.begin(), name.end(), ']');
+      if (name.starts_with('-') || name.find_first_of(";\\") != std::string::npos || brackets != 0) {
+        violations.push_back(at(file, number) +
+                             "ctest cannot run this test case by its name; begin with a letter, and do without " +
+                             "semicolon, backslash and lone bracket");
+      }
+    }
+  }
+  return violations;
+}
+
 }  // namespace firn::architecture

@@ -39,4 +39,8 @@ Violations check_lengths(const std::vector<SourceFile>& files);
 // No absolute path of the machine the project was written on.
 Violations check_machine_paths(const std::vector<SourceFile>& files);
 
+// Names of test cases that reach the test unharmed: ctest runs each by its name, which CMake splits at a semicolon, a backslash or
+// a lone bracket, and which Catch2 takes for an option when it begins with a dash.
+Violations check_test_names(const std::vector<SourceFile>& files);
+
 }  // namespace firn::architecture

@@ -110,6 +110,16 @@ TEST_CASE("a place of one machine is a violation in any file") {
   }
 }
 
+TEST_CASE("a test case whose name ctest would lose is a violation") {
+  for (const std::string& name : {std::string("--set wins"), std::string("a; b"), std::string("a\\\\b"), std::string("a [ b")}) {
+    CAPTURE(name);
+    const Violations found = check_test_names({{"tests/gpu/a.cpp", "\nTEST_CASE(\"" + name + "\") {}\n"}});
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].starts_with("tests/gpu/a.cpp:2: "));
+  }
+  CHECK(check_test_names({{"tests/gpu/a.cpp", "TEST_CASE(\"a[3], b: 'c' (d)\", \"[tag; x]\") { f(); }\n"}}).empty());
+}
+
 TEST_CASE("build folders, results and hidden folders are no part of the tree") {
   namespace fs = std::filesystem;
   const fs::path root = fs::temp_directory_path() / ("firn-tree-" + std::to_string(test::seed()));

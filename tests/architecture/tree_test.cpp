@@ -40,5 +40,7 @@ TEST_CASE("no file of source is too long to be read in one sitting") { check_non
 
 TEST_CASE("no file names a place of one machine") { check_none(check_machine_paths(read_tree(FIRN_SOURCE_DIR))); }
 
+TEST_CASE("every test case has a name that ctest can run it by") { check_none(check_test_names(read_tree(FIRN_SOURCE_DIR))); }
+
 }  // namespace
 }  // namespace firn::architecture

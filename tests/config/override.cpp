@@ -35,7 +35,7 @@ const std::string yaml = "scene:\n  gravity: [0, -9.81, 0]\n  bodies:\n    - den
 
 }  // namespace
 
-TEST_CASE("--set splits its path at dots and reads its value as YAML") {
+TEST_CASE("the option --set splits its path at dots and reads its value as YAML") {
   Diagnostics diagnostics;
   const Override override = parse_override("scene.gravity=[0,-1.62,0]", diagnostics);
   CHECK(diagnostics.all().empty());

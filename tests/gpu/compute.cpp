@@ -19,7 +19,7 @@ std::vector<float> random_values(std::size_t count) {
 
 }  // namespace
 
-TEST_CASE("a new buffer is zero and knows its size; nothing becomes 16 bytes") {
+TEST_CASE("a new buffer is zero and knows its size, nothing becomes 16 bytes") {
   const auto device = Device::open();
   const std::uint64_t bytes = GENERATE(1, 3, 4, 16, 1000, 1 << 20);
   const Buffer buffer(bytes, "zeros");
@@ -28,7 +28,8 @@ TEST_CASE("a new buffer is zero and knows its size; nothing becomes 16 bytes") {
   CHECK(Buffer(0, "nothing").bytes() == 16);
 }
 
-// Memory fresh from the system is zero by itself: it must have been used before.
+// Memory fresh from the system is zero by itself: it must have been used before. llvmpipe zeroes all by itself, softpipe and GPUs
+// do not.
 TEST_CASE("what is made in memory that was used before is zero too") {
   const auto device = Device::open();
   for (int round = 0; round < 20; ++round) {

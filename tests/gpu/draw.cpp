@@ -165,7 +165,7 @@ TEST_CASE("back faces are culled on demand, and a wireframe leaves the inside") 
     clear_color(target.framebuffer, 0, 0, 0, 0, 0);
     use(clockwise);
     draw(target.framebuffer, state, 3, 1);
-    return texels<float>(target.color)[(size * size / 2 + size / 2) * 4];
+    return texels<float>(target.color)[4 * (texel_count / 2 + size / 2)];
   };
   CHECK(center({}) == 1);
   CHECK(center({.cull_back = true}) == 0);
@@ -188,7 +188,7 @@ TEST_CASE("instances, points of a given size, and patches are drawn") {
     use(program);
     draw(target.framebuffer, {.topology = Topology::points}, 1, size);
     const std::vector<float> values = texels<float>(target.color);
-    const auto at = [&](int x, int y) { return values[4 * (y * size + x)]; };
+    const auto at = [&](int x, int y) { return values[4 * static_cast<std::size_t>(y * size + x)]; };
     CHECK(at(0, 0) == 1);
     CHECK(at(7, 7) == 1);
     CHECK(at(0, 1) == 0);

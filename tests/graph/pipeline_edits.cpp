@@ -28,26 +28,26 @@ graph::Edits replace(const std::string& group, const std::string& stages) {
   return edits;
 }
 
-TEST_CASE("--set changes a parameter of the pipeline everywhere") {
+TEST_CASE("the option --set changes a parameter of the pipeline everywhere") {
   CHECK(step_of(set({"k=4"})) == "a.move(k=4 mode=fast speed=1) b.push repeat 3 [solver(stage=c slope=2) a.move#2(stage=a.move)]");
   CHECK(step_of(set({"k=[1, 2]", "mode=slow"})).starts_with("a.move(k=[1, 2] mode=slow speed=1)"));
   CHECK(flow(loaded(text, set({"k=4"})).pipeline.parameters) == "{k: 4, mode: fast}");
 }
 
-TEST_CASE("--set changes or adds a parameter of one stage, by its label") {
+TEST_CASE("the option --set changes or adds a parameter of one stage, by its label") {
   CHECK(step_of(set({"solver.slope=5"})).ends_with("repeat 3 [solver(stage=c slope=5) a.move#2(stage=a.move)]"));
   CHECK(step_of(set({"b.push.force=5"})).find("b.push(force=5)") != std::string::npos);
   CHECK(step_of(set({"a.move#2.speed=7"})) ==
         "a.move(k=8 mode=fast speed=1) b.push repeat 3 [solver(stage=c slope=2) a.move#2(stage=a.move speed=7)]");
 }
 
-TEST_CASE("--set by a stage's name changes all its uses") {
+TEST_CASE("the option --set by a stage's name changes all its uses") {
   CHECK(step_of(set({"a.move.speed=7"})) ==
         "a.move(k=8 mode=fast speed=7) b.push repeat 3 [solver(stage=c slope=2) a.move#2(stage=a.move speed=7)]");
   CHECK(step_of(set({"c.slope=9"})).find("solver(stage=c slope=9)") != std::string::npos);
 }
 
-TEST_CASE("--set changes every and enable as well") {
+TEST_CASE("the option --set changes every and enable as well") {
   CHECK(step_of(set({"solver.every=5", "b.push.enable=false"})) ==
         "a.move(k=8 mode=fast speed=1) b.push(off) repeat 3 [solver(stage=c slope=2 every=5) a.move#2(stage=a.move)]");
   CHECK(load_messages(text, set({"solver.every=0"})) ==
@@ -80,7 +80,7 @@ TEST_CASE("an unknown name of --set is an error with the nearest one") {
             "scene.<key>=<value>"});
 }
 
-TEST_CASE("--disable turns off a label or all uses of a stage") {
+TEST_CASE("the option --disable turns off a label or all uses of a stage") {
   CHECK(step_of(disable("solver")).find("solver(stage=c slope=2 off) a.move#2(stage=a.move)]") != std::string::npos);
   CHECK(step_of(disable("a.move")) ==
         "a.move(k=8 mode=fast speed=1 off) b.push repeat 3 [solver(stage=c slope=2) a.move#2(stage=a.move off)]");
@@ -88,7 +88,7 @@ TEST_CASE("--disable turns off a label or all uses of a stage") {
         Lines{"--disable solvr: error: no stage 'solvr' in this pipeline; did you mean 'solver'?"});
 }
 
-TEST_CASE("--replace puts other stages into a group") {
+TEST_CASE("the option --replace puts other stages into a group") {
   CHECK(step_of(replace("displace", "[d.one, {d.two: {k: \"${k}\"}}]"))
             .starts_with("a.move(k=8 mode=fast speed=1) d.one d.two(k=8) repeat"));
   CHECK(load_messages(text, replace("displcae", "[d]")) ==

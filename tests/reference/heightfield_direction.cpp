@@ -41,7 +41,7 @@ TEST_CASE("the thesis's rule: the cosine to the direction of motion, plus the do
   }
 }
 
-TEST_CASE("straight down or at rest, only the downward share counts; level motion pushes nothing back") {
+TEST_CASE("straight down or at rest, only the downward share counts, level motion pushes nothing back") {
   const FactorRule rule = GENERATE(FactorRule::thesis, FactorRule::appendix);
   CHECK(factor({0, -3, 0}, 1, 0, {rule, 8}) == 0.125);
   CHECK(factor({0, 0, 0}, 1, 0, {rule, 8}) == 0.125);

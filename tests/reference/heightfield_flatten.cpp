@@ -51,7 +51,7 @@ TEST_CASE("a lone pillar gives the mean excess of its eight sides, in equal part
   }
 }
 
-TEST_CASE("lower neighbours that are not too steep receive too; level, higher and blocked ones do not") {
+TEST_CASE("lower neighbours that are not too steep receive too, level, higher and blocked ones do not") {
   // One row: heights 0.9, 1, 0 and the last column's body in the way.
   Field field = flat_field(1, 3, 1, 0, 100);
   field.snow << 0.9, 1, 0;

@@ -69,7 +69,7 @@ TEST_CASE("the kinds of snow of both theses are there, with the densities of the
   }
 }
 
-TEST_CASE("packed snow has the defaults of Stomakhin 2013; dry lies below its thresholds, wet above") {
+TEST_CASE("packed snow has the defaults of Stomakhin 2013, dry lies below its thresholds, wet above") {
   const scene::Material& packed = scene::find_preset("packed")->material;
   CHECK(packed.density == 400);
   CHECK(packed.young == 1.4e5);

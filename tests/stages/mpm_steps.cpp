@@ -1,86 +1,16 @@
-// Whole steps of the shipped pipelines: against the double-precision run, and against mechanics.
+// Whole steps of the shipped pipelines against the double-precision run.
 
-#include <bit>
-#include <filesystem>
-#include <fstream>
-
-#include "app/load.h"
-#include "tests/stages/random_snow.h"
+#include "tests/stages/simulation.h"
 
 using namespace firn::test;
 namespace ref = firn::reference;
 
 namespace {
 
-std::string pipeline_file(const std::string& name) { return std::string(FIRN_SOURCE_DIR) + "/pipelines/" + name + ".yaml"; }
-
-// A scene text as a file that lives as long as this.
-struct SceneFile {
-  explicit SceneFile(const std::string& text)
-      : path((std::filesystem::temp_directory_path() / ("firn-scene-" + std::to_string(getpid()) + ".yaml")).string()) {
-    std::ofstream(path) << text;
-  }
-  ~SceneFile() { std::filesystem::remove(path); }
-  std::string path;
-};
-
-// A pipeline on a scene, ready to step. Frames are left out: nothing is drawn.
-struct Simulation {
-  Simulation(const std::string& pipeline, const std::string& scene_text, std::vector<std::string> set = {},
-             bool barriers_all = false)
-      : scene(scene_text) {
-    firn::app::Inputs inputs;
-    inputs.pipeline = pipeline_file(pipeline);
-    inputs.scene = scene.path;
-    inputs.set = std::move(set);
-    loaded = firn::app::load(inputs, "");
-    execution = std::make_unique<firn::execution::Execution>(device(), loaded.plan, loaded.registry,
-                                                             firn::execution::Options{shader_folders(), barriers_all, false});
-    execution->setup();
-  }
-  void steps(int count) {
-    for (int i = 0; i < count; ++i) {
-      execution->clock().dt = *loaded.problem->scene.time.dt;
-      execution->step();
-    }
-    execution->check_faults();
-  }
-  [[nodiscard]] std::vector<float> floats(const std::string& buffer) const {
-    const firn::graph::PlannedBuffer& planned = loaded.plan.buffers.at(static_cast<std::size_t>(loaded.plan.buffer(buffer)));
-    const std::vector<std::byte> bytes = firn::graph::unpadded(planned.type, execution->read(buffer));
-    std::vector<float> values(bytes.size() / 4);
-    std::memcpy(values.data(), bytes.data(), bytes.size());
-    return values;
-  }
-  [[nodiscard]] std::vector<Vector3d> vectors(const std::string& buffer) const {
-    const std::vector<float> values = floats(buffer);
-    std::vector<Vector3d> result;
-    for (std::size_t i = 0; i < values.size(); i += 3) result.emplace_back(values[i], values[i + 1], values[i + 2]);
-    return result;
-  }
-  [[nodiscard]] Vector3d momentum() const {
-    const std::vector<float> mass = floats("mass");
-    const std::vector<Vector3d> velocity = vectors("velocity");
-    Vector3d sum = Vector3d::Zero();
-    for (std::size_t p = 0; p < mass.size(); ++p) sum += static_cast<double>(mass[p]) * velocity[p];
-    return sum;
-  }
-
-  SceneFile scene;
-  firn::app::Loaded loaded;
-  std::unique_ptr<firn::execution::Execution> execution;
-};
-
 double total(const std::vector<float>& values) {
   double sum = 0;
   for (const float value : values) sum += value;
   return sum;
-}
-
-Vector3d mean(const std::vector<Vector3d>& values) {
-  Vector3d sum = Vector3d::Zero();
-  for (const Vector3d& v : values) sum += v;
-  return sum / static_cast<double>(values.size());
 }
 
 // About 1,000 particles: a snowball that is thrown into a corner of a plane, a sphere and a box, so that everything happens within
@@ -137,21 +67,6 @@ struct Reference {
   ref::StepSettings settings;
 };
 
-struct Variant {
-  const char* pipeline;
-  const char* kernel;
-  const char* accumulate;  // empty: the pipeline has no such choice
-};
-const Variant variants[] = {
-    {"mpm_thesis", "cubic", "fixed"},     {"mpm_thesis", "cubic", "float"}, {"mpm_thesis", "quadratic", "fixed"},
-    {"mpm_thesis", "quadratic", "float"}, {"mpm_snow", "cubic", ""},        {"mpm_snow", "quadratic", ""}};
-
-std::vector<std::string> settings(const Variant& variant) {
-  std::vector<std::string> set{std::string("kernel=") + variant.kernel};
-  if (*variant.accumulate != 0) set.push_back(std::string("accumulate=") + variant.accumulate);
-  return set;
-}
-
 }  // namespace
 
 TEST_CASE("50 steps stay within 1e-3 of a cell of the double-precision run") {
@@ -196,53 +111,5 @@ TEST_CASE("derived barriers give the same bytes as a full barrier after everythi
     all.steps(20);
     for (const char* buffer : {"position", "velocity", "elastic", "plastic_det", "volume"})
       CHECK(derived.execution->read(buffer) == all.execution->read(buffer));
-  }
-}
-
-TEST_CASE("momentum without gravity and bodies is kept to 1e-5 over 1,000 steps") {
-  const char* const scene = R"(
-firn: 1
-name: drift
-gravity: [0, 0, 0]
-time: {dt: 2.0e-4, end: 1}
-domain: {min: [0, 0, 0], max: [2, 2, 2], cell: 0.125}
-materials: {ball: {density: 400, young: 1.4e5}}
-snow:
-  - {sphere: {center: [0.6, 0.9, 1], radius: 0.24}, material: ball, velocity: [3, 0.5, -0.25], spin: [0, 0, 6]}
-  - {sphere: {center: [1.2, 0.95, 1], radius: 0.24}, material: ball, velocity: [-1, 0.25, 0]}
-)";
-  for (const Variant& variant : variants) {
-    if (std::string(variant.kernel) == "quadratic") continue;
-    CAPTURE(variant.pipeline, variant.accumulate);
-    Simulation simulation(variant.pipeline, scene, settings(variant));
-    const Vector3d before = simulation.momentum();
-    simulation.steps(1000);
-    const double drift = (simulation.momentum() - before).norm() / before.norm();
-    CAPTURE(drift);
-    CHECK(drift <= 1e-5);
-  }
-}
-
-TEST_CASE("free fall matches g t^2 / 2 to 1e-4") {
-  const char* const scene = R"(
-firn: 1
-name: fall
-time: {dt: 1.0e-4, end: 1}
-domain: {min: [0, 0, 0], max: [1, 2, 1], cell: 0.0625}
-materials: {ball: {density: 400, young: 1.4e5}}
-snow: [{sphere: {center: [0.5, 1.6, 0.5], radius: 0.15}, material: ball}]
-)";
-  for (const char* pipeline : {"mpm_thesis", "mpm_snow"}) {
-    CAPTURE(pipeline);
-    Simulation simulation(pipeline, scene);
-    const double before = mean(simulation.vectors("position")).y();
-    constexpr int steps = 4000;
-    simulation.steps(steps);
-    const double t = steps * 1e-4, fallen = before - mean(simulation.vectors("position")).y();
-    // The scheme's own sum is g dt^2 n (n + 1) / 2: 1/n more than g t^2 / 2, which is 2.5e-4 here and belongs to the method.
-    const double scheme = 9.81 * 1e-8 * steps * (steps + 1) / 2;
-    CAPTURE(fallen, scheme);
-    CHECK(std::abs(fallen / scheme - 1) <= 1e-4);
-    CHECK(std::abs(fallen / (0.5 * 9.81 * t * t) - 1) <= 1e-4 + 1.0 / steps);
   }
 }

@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/inputs.h"
+#include "tests/catch.h"
+
+using firn::test::Folder;
+using firn::test::Outcome;
+using firn::test::Words;
+
+TEST_CASE("a bad word on the command line is named, with what would be right", "[app]") {
+  const Folder folder;
+  const struct {
+    Words words;
+    std::string fragment;
+  } table[] = {
+      {{}, "subcommand is required"},
+      {{"chek", "mpm_snow"}, "no verb 'chek'; did you mean 'check'?"},
+      {{"run"}, "PIPELINE is required"},
+      {{"check"}, "PIPELINE is required"},
+      {{"check", "mpm_snow", "more"}, "more"},
+      {{"check", "mpm_snow", "--scen", "a.yaml"}, "--scen"},
+      {{"check", "mpm_snow", "--scene"}, "--scene"},
+      {{"list", "--jsn"}, "--jsn"},
+      {{"run", "mpm_snow", "--steps", "many"}, "--steps"},
+      {{"run", "mpm_snow", "--steps", "-1"}, "--steps"},
+      {{"run", "mpm_snow", "--frames", "-1"}, "--frames"},
+      {{"run", "mpm_snow", "--steps", "1", "--frames", "1"}, "excludes"},
+      {{"run", "mpm_snow", "--barriers", "none"}, "derived"},
+      {{"check", "mpm_snwo"}, "mpm_snwo: error: there is no such file"},
+      {{"check", "mpm_snow", "--set", "kernel"}, "--set kernel: error: '=' is missing"},
+      {{"check", "mpm_snow", "--set", "kernel="}, "--set kernel=: error: the value after '=' is missing"},
+      {{"check", "mpm_snow", "--set", "=3"}, "--set =3: error: a name"},
+      {{"check", "mpm_snow", "--set", "kernl=cubic"},
+       "--set kernl=cubic: error: no parameter 'kernl' in this pipeline; did you mean 'kernel'"},
+      {{"check", "mpm_snow", "--set", "kernel=qubic"}, "kernel cannot be 'qubic'; did you mean 'cubic'"},
+      {{"check", "mpm_snow", "--set", "mpm.sotr.every=2"},
+       "--set mpm.sotr.every=2: error: no stage 'mpm.sotr' in this pipeline; did you mean 'mpm.sort'"},
+      {{"check", "mpm_snow", "--set", "mpm.grid_to_particles.flip=2"}, "--set mpm.grid_to_particles.flip=2: error: flip must be"},
+      {{"check", "mpm_snow", "--set", "mpm.grid_to_particles.flop=1"},
+       "--set mpm.grid_to_particles.flop=1: error: mpm.grid_to_particles has no parameter 'flop'; did you mean 'flip'"},
+      {{"check", "mpm_snow", "--set", "scene.gravty=1"}, "--set scene.gravty=1: error: a scene has no key 'gravty'"},
+      {{"check", "mpm_snow", "--set", "scene.gravity=1"}, "--set scene.gravity=1: error: gravity must be a list of 3 numbers"},
+      {{"check", "mpm_snow", "--set", "scene.snow.7.per_cell=1"}, "--set scene.snow.7.per_cell=1: error: 'snow' is a list"},
+      {{"check", "mpm_snow", "--set", "scene.snow.0.per_cell=[1"},
+       "--set scene.snow.0.per_cell=[1: error: the value '[1' is no YAML"},
+      {{"check", "mpm_snow", "--set", "scene.time.dt=.nan"}, "--set scene.time.dt=.nan: error: dt"},
+      {{"check", "mpm_snow", "--set", "scene=a.yaml"}, "--set scene=a.yaml: error: write scene.<key>=<value>"},
+      {{"check", "mpm_snow", "--disable", "mpm.srot"},
+       "--disable mpm.srot: error: no stage 'mpm.srot' in this pipeline; did you mean"},
+      {{"check", "mpm_snow", "--disable", "mpm.sort"}, "reads 'order', which no stage of this pipeline writes"},
+      {{"check", "mpm_snow", "--image", "12"}, "--image 12: error: expected WIDTHxHEIGHT"},
+      {{"check", "mpm_snow", "--image", "8x8"}, "--image 8x8: error: expected WIDTHxHEIGHT"},
+      {{"check", "mpm_snow", "--image", "64x64x64"}, "--image 64x64x64: error: expected WIDTHxHEIGHT"},
+      {{"run", "mpm_snow", "--dump", "position"}, "--dump position: error: expected BUFFER=FILE.npy"},
+      {{"run", "mpm_snow", "--dump", "positoin=a.npy"},
+       "--dump positoin=a.npy: error: no buffer 'positoin' in this pipeline; did you mean 'position'"},
+      {{"run", "mpm_snow", "--dump", "position=nowhere/a.npy"},
+       "--dump position=nowhere/a.npy: error: there is no folder 'nowhere'"},
+  };
+  for (const auto& bad : table) {
+    Words words = bad.words;
+    if (!words.empty() && words[0] == "run") words.insert(words.end(), {"--out", folder / "out"});
+    const Outcome outcome = firn::test::run_firn(words);
+    std::string line;
+    for (const std::string& word : bad.words) line += word + " ";
+    INFO("firn " << line << "\nexpected: " << bad.fragment);
+    INFO(outcome.err);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.err.find(bad.fragment) != std::string::npos);
+  }
+  CHECK_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+TEST_CASE("a --set that cannot be read brings no errors but its own", "[app]") {
+  for (const char* text : {"scene.snow.0.per_cell=[1", "kernel=", "=3"}) {
+    const Outcome outcome = firn::test::run_firn({"check", "mpm_snow", "--set", text});
+    INFO(outcome.err);
+    CHECK(outcome.status == 2);
+    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+  }
+}
+
+TEST_CASE("every verb explains itself, and the version is told", "[app]") {
+  for (const char* verb : {"run", "check", "list", "doctor", "test"}) {
+    const Outcome help = firn::test::run_firn({verb, "--help"});
+    CAPTURE(verb);
+    CHECK(help.status == 0);
+    CHECK(help.out.find(verb) != std::string::npos);
+    CHECK(help.err.empty());
+    const Outcome version = firn::test::run_firn({verb, "--version"});
+    CHECK(version.status == 0);
+    CHECK(version.out.starts_with("firn "));
+  }
+  const Outcome help = firn::test::run_firn({"--help"});
+  CHECK(help.status == 0);
+  CHECK(help.out.find("Exit status") != std::string::npos);
+  CHECK(firn::test::run_firn({"--version"}).status == 0);
+}
+
+TEST_CASE("list names every stage, and the same ones as JSON", "[app]") {
+  const Outcome plain = firn::test::run_firn({"list"}), json = firn::test::run_firn({"list", "--json"});
+  CHECK(plain.status == 0);
+  REQUIRE(json.status == 0);
+  const nlohmann::json list = nlohmann::json::parse(json.out);
+  REQUIRE(list.is_array());
+  CHECK(std::count(plain.out.begin(), plain.out.end(), '\n') == static_cast<std::ptrdiff_t>(list.size()));
+  bool found = false;
+  for (const nlohmann::json& stage : list) {
+    CHECK(plain.out.find(stage.at("name").get<std::string>()) != std::string::npos);
+    CHECK_FALSE(stage.at("doc").get<std::string>().empty());
+    found |= stage.at("name") == "mpm.advect";
+  }
+  CHECK(found);
+}
+
+TEST_CASE("doctor tells devices and limits, also as JSON", "[app]") {
+  const Outcome plain = firn::test::run_firn({"doctor"}), json = firn::test::run_firn({"doctor", "--json"});
+  CHECK(plain.status == 0);
+  CHECK(plain.out.find("bytes per storage block") != std::string::npos);
+  REQUIRE(json.status == 0);
+  const nlohmann::json report = nlohmann::json::parse(json.out);
+  CHECK(report.at("devices").size() >= 1);
+  CHECK(report.at("used").at("limits").at("storage_block_bytes").get<std::int64_t>() >= (1 << 24));
+}
