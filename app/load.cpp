@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -22,6 +23,22 @@ stages::Image read_image_size(const std::string& text, config::Diagnostics& diag
     return {};
   }
   return image;
+}
+
+// Memory is told before it is taken: particles on the host while they are sampled, and their state and the grid's on the device.
+void check_memory(const scene::Scene& scene, config::Diagnostics& diagnostics) {
+  constexpr double per_particle = 64 + 64 + 400, per_node = 80;  // bytes: sampling, scene and upload, the pipelines' buffers
+  const double particles = static_cast<double>(scene::estimate_particles(scene));
+  const double nodes = scene.domain ? scene.domain->nodes().cast<double>().prod() : 0;
+  const double needed = particles * per_particle + nodes * per_node;
+  const double there = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (needed <= there) return;
+  constexpr double gib = 1 << 30;
+  diagnostics.error(
+      scene.domain ? scene.domain->place : config::Place{scene.file, 0, 0},
+      fmt::format("{:.0f} grid nodes and up to {:.0f} particles would take about {:.1f} GiB; this machine has {:.1f} GiB; make the "
+                  "cell larger or the domain smaller",
+                  nodes, particles, needed / gib, there / gib));
 }
 
 // A scene that any pipeline can be checked against when its own is wrong, so that the errors of both are told at once.
@@ -111,6 +128,7 @@ Loaded load(const Inputs& inputs, const std::string& output) {
             config::apply_override(loaded.scene_node, {change.path.begin() + 1, change.path.end()}, change.value, change.place,
                                    of_scene);
         scene::Scene scene = scene::read_scene(loaded.scene_node, of_scene);
+        if (!of_scene.has_errors()) check_memory(scene, of_scene);
         if (!of_scene.has_errors()) problem = stages::make_problem(std::move(scene), image, output);
       }
       diagnostics.append(of_scene);

@@ -7,8 +7,8 @@ namespace {
 
 // Where the scalars of one element lie in its padded form: consecutive, save mat3, whose columns fill 16 bytes each.
 std::size_t padded_offset(ElementType type, int component) {
-  if (type == ElementType::mat3) return static_cast<std::size_t>(component / 3 * 16 + component % 3 * 4);
-  return static_cast<std::size_t>(component) * 4;
+  const auto c = static_cast<std::size_t>(component);
+  return type == ElementType::mat3 ? c / 3 * 16 + c % 3 * 4 : c * 4;
 }
 
 template <typename T>

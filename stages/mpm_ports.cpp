@@ -134,7 +134,7 @@ Port body(const char* name, Access access, Usage usage) {
       {"body_friction", ElementType::float1, "1", "Coulomb coefficient"},
       {"body_mass", ElementType::float1, "kg", "mass; 0: moves as told"},
       {"body_path", ElementType::ivec2, "1", "first key frame, number of key frames"},
-      {"body_color", ElementType::vec3, "1", "linear colour"},
+      {"body_color", ElementType::vec3, "1", "colour, sRGB"},
   };
   for (const Facts& facts : table)
     if (std::string_view(name) == facts.name) return port(facts.name, facts.type, "bodies", access, usage, facts.unit, facts.doc);

@@ -14,14 +14,15 @@ void main() {
   vec3 color = sky(ray);
   gl_FragDepth = no_depth;
 #if HAS_BODY_KIND
-  Hit hit = first_hit(camera_from, ray);
+  bool outline, ignored;
+  Hit hit = first_hit(camera_from, ray, outline);
   if (hit.body >= 0) gl_FragDepth = depth_at(hit.distance * dot(ray, camera_axes()[2]));
   color = seen(ray, hit);
-  if (meets_outline(camera_from, ray)) {
+  if (outline) {
     const vec2 offsets[3] = vec2[](vec2(0.25, -0.375), vec2(-0.375, -0.125), vec2(0.125, 0.375));
     for (int i = 0; i < 3; ++i) {
       vec3 beside = camera_ray(gl_FragCoord.xy + offsets[i]);
-      color += seen(beside, first_hit(camera_from, beside));
+      color += seen(beside, first_hit(camera_from, beside, ignored));
     }
     color *= 0.25;
   }

@@ -17,5 +17,5 @@ vec3 sun_extent(mat3 axes) {
 
 vec3 shadow_coordinates(vec3 x) {
   mat3 axes = sun_axes();
-  return 0.5 - 0.5 * (transpose(axes) * (x - 0.5 * (scene_min + scene_max))) / sun_extent(axes);
+  return 0.5 + 0.5 * (transpose(axes) * (x - 0.5 * (scene_min + scene_max))) / sun_extent(axes);
 }

@@ -9,6 +9,12 @@ vec4 light_through(vec2 corner, vec2 texel, float depth, float fade) {
 }
 #endif
 
+// Width of the map's texels, m.
+float shadow_texel() {
+  vec3 extent = sun_extent(sun_axes());
+  return 2.0 * max(extent.x / float(shadow_map_width), extent.y / float(shadow_map_height));
+}
+
 // Share of sunlight that arrives at x, over a square of 5 by 5 texels, without steps. `lift`: m toward the sun, against a surface's own
 // shadow. `penetration`: m that light goes through snow until a third is left.
 float sunlit(vec3 x, float lift, float penetration) {
@@ -25,7 +31,7 @@ float sunlit(vec3 x, float lift, float penetration) {
     vec2 wy = j == 0 ? vec2(1.0 - f.y, 1.0) : j == 1 ? vec2(1.0) : vec2(1.0, f.y);
     for (int i = 0; i < 3; ++i) {
       vec2 wx = i == 0 ? vec2(1.0 - f.x, 1.0) : i == 1 ? vec2(1.0) : vec2(1.0, f.x);
-      vec4 light = light_through(base + vec2(2 * i - 1, 2 * j - 1) + 0.0, 1.0 / size, at.z, fade);
+      vec4 light = light_through(base + vec2(2 * i - 1, 2 * j - 1), 1.0 / size, at.z, fade);
       sum += dot(light, vec4(wx.x * wy.y, wx.y * wy.y, wx.y * wy.x, wx.x * wy.x));
     }
   }

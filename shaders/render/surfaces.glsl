@@ -1,47 +1,41 @@
-// What a ray from the camera sees of the rigid bodies. Needs camera, shadow, light, sunlight, shapes and occlusion, and the sampled port body_color.
+// What a ray from the camera sees of the rigid bodies. Needs camera, shadow, light, sunlight, shapes and occlusion, and the sampled
+// ports body_color and body_bound (body_bounds.comp).
 
 const float ground_slope = 0.2;  // half-spaces whose normal is steeper than this are walls
 const float glass_tint = 0.07;
 
 bool is_ground(vec3 normal) { return normal.y > ground_slope; }
 
-// Distance along the ray into a half-space; far_away where it misses or the camera stands inside.
-float half_space_distance(vec3 from, vec3 ray, vec3 point, vec3 normal) {
-  float height = dot(from - point, normal), sinking = -dot(ray, normal);
+// Distance along the ray into the half-space of points x with dot(plane.xyz, x) < plane.w; far_away where it misses or the camera stands
+// inside.
+float half_space_distance(vec3 from, vec3 ray, vec4 plane) {
+  float height = dot(from, plane.xyz) - plane.w, sinking = -dot(ray, plane.xyz);
   return height <= 0.0 || sinking <= 1.0e-6 ? far_away : height / sinking;
 }
 
-Hit first_hit(vec3 from, vec3 ray) {
+// `outline`: whether that of a body that is not a half-space may run through the ray's pixel.
+Hit first_hit(vec3 from, vec3 ray, out bool outline) {
   Hit hit = Hit(far_away, -1, vec3(0.0));
+  outline = false;
   for (int b = 0; b < int(bodies_count); ++b) {
     int kind = body_kind_at(b);
-    if (kind != 0) {
-      hit_solid(b, kind, from, ray, hit);
-      continue;
-    }
-    vec3 normal = turned(body_orientation_at(b), vec3(0.0, 1.0, 0.0));
+    vec4 bound = body_bound_at(b);
+    if (kind == 0) {
 #if !WALLS_SOLID
-    if (!is_ground(normal)) continue;
+      if (!is_ground(bound.xyz)) continue;
 #endif
-    float t = half_space_distance(from, ray, body_position_at(b), normal);
-    if (t < hit.distance) hit = Hit(t, b, normal);
+      float t = half_space_distance(from, ray, bound);
+      if (t < hit.distance) hit = Hit(t, b, bound.xyz);
+    } else {
+      vec3 to_center = bound.xyz - from;
+      float along = dot(to_center, ray), pixel = pixel_angle() * along;
+      float beside = length(to_center - along * ray);
+      if (along <= 0.0 || beside > bound.w + pixel) continue;
+      outline = outline || kind != 1 || beside > bound.w - 2.0 * pixel;
+      hit_solid(b, kind, from, ray, hit);
+    }
   }
   return hit;
-}
-
-// Whether the outline of a body that is not a half-space may run through the pixel of this ray.
-bool meets_outline(vec3 from, vec3 ray) {
-  for (int b = 0; b < int(bodies_count); ++b) {
-    int kind = body_kind_at(b);
-    if (kind == 0) continue;
-    float r = bounding_radius(kind, body_size_at(b).xyz);
-    vec3 to_center = body_position_at(b) - from;
-    float along = dot(to_center, ray);
-    float pixel = pixel_angle() * along;
-    float beside = length(to_center - along * ray);
-    if (along > 0.0 && beside < r + pixel && (kind != 1 || beside > r - 2.0 * pixel)) return true;
-  }
-  return false;
 }
 
 // Distance to the nearest of lines one unit apart -> how strongly it shows, over a pixel of this width.
@@ -79,7 +73,8 @@ vec3 surface_color(vec3 x, vec3 ray, Hit hit) {
     albedo *= 1.0 - stripe(kind, local, body_size_at(hit.body).x);
   }
   float facing = max(dot(hit.normal, -sun_direction), 0.0);
-  float sun = facing > 0.0 ? facing * sunlit(x + 0.004 * hit.normal, 0.004, 0.0) : 0.0;
+  float texel = shadow_texel();  // off the surface by what the filter reaches, or it would shade itself
+  float sun = facing > 0.0 ? facing * sunlit(x + 3.0 * texel * hit.normal, texel, 0.0) : 0.0;
   float open = sky_left_by_bodies(x, hit.normal, hit.body);
   if (kind != 0) open *= 0.75 + 0.25 * smoothstep(-1.0, 0.4, hit.normal.y);  // the ground is near and darker than the sky
   return albedo * (sun * sun_color + open * sky_light(hit.normal));
@@ -89,7 +84,7 @@ vec3 surface_color(vec3 x, vec3 ray, Hit hit) {
 // Where walls meet, they end.
 bool behind_another(int wall, vec3 x) {
   for (int b = 0; b < int(bodies_count); ++b)
-    if (b != wall && body_kind_at(b) == 0 && turned_back(body_orientation_at(b), x - body_position_at(b)).y < 0.0) return true;
+    if (b != wall && body_kind_at(b) == 0 && dot(body_bound_at(b), vec4(x, -1.0)) < 0.0) return true;
   return false;
 }
 
@@ -97,15 +92,14 @@ bool behind_another(int wall, vec3 x) {
 vec3 through_panes(vec3 color, vec3 ray, float nearest) {
   for (int b = 0; b < int(bodies_count); ++b) {
     if (body_kind_at(b) != 0) continue;
-    vec4 turn = body_orientation_at(b);
-    vec3 normal = turned(turn, vec3(0.0, 1.0, 0.0));
-    if (is_ground(normal)) continue;
-    float t = half_space_distance(camera_from, ray, body_position_at(b), normal);
+    vec4 plane = body_bound_at(b);
+    if (is_ground(plane.xyz)) continue;
+    float t = half_space_distance(camera_from, ray, plane);
     if (t >= nearest) continue;
     vec3 x = camera_from + t * ray;
     if (any(lessThan(x, scene_min - 1.0e-3)) || any(greaterThan(x, scene_max + 1.0e-3)) || behind_another(b, x)) continue;
-    vec3 local = turned_back(turn, x - body_position_at(b));
-    float pixel = pixel_angle() * t / max(abs(dot(ray, normal)), 0.02);
+    vec3 local = turned_back(body_orientation_at(b), x - body_position_at(b));
+    float pixel = pixel_angle() * t / max(abs(dot(ray, plane.xyz)), 0.02);
     color = mix(color, vec3(0.9, 0.95, 1.0), glass_tint + 0.35 * ruler * ruler_lines(local.xz, pixel));
   }
   return color;

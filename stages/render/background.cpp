@@ -10,6 +10,18 @@ graph::StageSpec background() {
   using graph::ParameterKind;
   std::vector<graph::Port> ports{view::image(write, graph::Usage::framebuffer), view::image_depth(write),
                                  view::optional_shadow_map(), view::optional(mpm::body("body_color", read))};
+  ports.push_back(
+      {.name = "body_bound",
+       .type = graph::ElementType::vec4,
+       .domain = "bodies",
+       .access = read_write,
+       .usage = graph::Usage::sampled,
+       .unit = "mixed",
+       .doc = "half-spaces: unit normal, its product with a point of the plane; others: centre and radius of a ball round them"});
+  const std::initializer_list<const char*> shapes{"body_kind", "body_size", "body_position", "body_orientation"};
+  std::vector<graph::PortUse> of_bounds = view::sampled(shapes), of_picture = view::sampled(shapes);
+  of_bounds.push_back({"body_bound", write, graph::Usage::storage});
+  for (const graph::PortUse& use : view::sampled({"body_bound", "body_color", "shadow_map"})) of_picture.push_back(use);
   return {
       .name = "render.background",
       .doc = "Sky, ground and rigid bodies: the picture that everything else is drawn into",
@@ -30,12 +42,14 @@ graph::StageSpec background() {
                       .unit = "1",
                       .doc = "how visible the metre grid on the ground is"}},
       .constants = view::constants(),
-      .work = {graph::Draw{.name = "background",
+      .work = {graph::Dispatch{.kernel = "render/body_bounds.comp", .over = "bodies", .uses = of_bounds},
+               graph::Draw{.name = "background",
                            .vertex = "render/whole_picture.vert",
                            .fragment = "render/background.frag",
                            .colors = {"image"},
                            .depth = "image_depth",
-                           .clear = true}}};
+                           .clear = true,
+                           .uses = of_picture}}};
 }
 
 }  // namespace firn::stages::render

@@ -6,7 +6,6 @@
 namespace firn::stages::render {
 namespace {
 
-using graph::Access;
 using graph::ElementType;
 using graph::ParameterKind;
 using graph::ParameterSpec;
@@ -68,7 +67,7 @@ std::vector<ParameterSpec> parameters() {
 
 // A kernel finds what light there is at every particle; the draw gives it to grains.
 graph::StageSpec particles() {
-  using enum Access;
+  using enum graph::Access;
   const auto own = [](const char* name, const char* doc, ElementType type = ElementType::vec4) {
     return Port{.name = name, .type = type, .domain = "particles", .access = read_write, .unit = "mixed", .doc = doc};
   };
@@ -78,7 +77,7 @@ graph::StageSpec particles() {
                   .access = read_write,
                   .usage = Usage::sampled,
                   .unit = "1, 1, 1, kg/m3",
-                  .doc = "linear colour and density of materials"};
+                  .doc = "colour (sRGB) and density of materials"};
   std::vector<graph::PortUse> of_light =
       view::sampled({"position", "material", "plastic_det", "velocity", "material_look", "grid_mass", "shadow_map", "body_kind",
                      "body_size", "body_position", "body_orientation"});

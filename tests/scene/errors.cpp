@@ -28,7 +28,7 @@ light: {sun: [-0.4, -1, -0.3]}
 )";
 
 struct BadScene {
-  const char* what;
+  std::string what;
   std::string old_text, new_text;  // the one change to `base`
   std::string at;                  // the error's place: where this begins in the changed text
   std::string fragment;            // the error must contain it
@@ -155,7 +155,7 @@ TEST_CASE("snow that leaves the domain's margin is an error that names the axis 
   // Margin: 2 cells of 0.05 m, so snow must stay between 0.1 and 1.9 along x, 1.4 along y and 0.9 along z.
   const std::string old_text = "sphere: {center: [0.5, 0.7, 0.51], radius: 0.21}";
   const auto snow = [&](const std::string& what, const std::string& shape, const std::string& fragment) {
-    return BadScene{what.c_str(), old_text, shape, "{" + shape.substr(0, 12), fragment};
+    return BadScene{what, old_text, shape, "{" + shape.substr(0, 12), fragment};
   };
   for (const BadScene& bad :
        {snow("low x", "sphere: {center: [0.25, 0.7, 0.5], radius: 0.2}", "0.05 m on the low x side"),

@@ -63,13 +63,18 @@ TEST_CASE("a body's outline is where its shape ends") {
 }
 
 TEST_CASE("of two bodies on one ray the nearer is seen, whatever their order") {
-  const std::string red = "{sphere: {radius: 0.05}, position: [0, 0.5, 0.2], color: [0.9, 0.05, 0.05]}";
-  const std::string green = "{sphere: {radius: 0.15}, position: [0, 0.5, -0.2], color: [0.05, 0.9, 0.05]}";
+  const std::string near_one = GENERATE("sphere: {radius: 0.05}", "box: {size: [0.1, 0.1, 0.1]}",
+                                        "capsule: {from: [0, -0.01, 0], to: [0, 0.01, 0], radius: 0.05}");
+  const std::string far_one = GENERATE("sphere: {radius: 0.15}", "box: {size: [0.3, 0.3, 0.3]}",
+                                       "capsule: {from: [0, -0.01, 0], to: [0, 0.01, 0], radius: 0.15}");
   const bool red_first = GENERATE(true, false);
+  CAPTURE(near_one, far_one, red_first);
+  const std::string red = "{" + near_one + ", position: [0, 0.5, 0.2], color: [0.9, 0.05, 0.05]}";
+  const std::string green = "{" + far_one + ", position: [0, 0.5, -0.2], color: [0.05, 0.9, 0.05]}";
   Shot shot(bodies_only(red_first ? "[" + red + ", " + green + "]" : "[" + green + ", " + red + "]"));
   shot.frame();
   CHECK(is_red(shot.at({0, 0.5, 0.2})));
-  CHECK(is_green(shot.at({0.12, 0.5, -0.2})));
+  CHECK(is_green(shot.at({0.13, 0.5, -0.2})));
 }
 
 TEST_CASE("snow hides the body behind it and is hidden by the body before it") {

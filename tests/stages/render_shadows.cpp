@@ -83,4 +83,7 @@ TEST_CASE("walls are panes, solid or hidden, as asked for, none is drawn that th
   CHECK(hidden[2] > hidden[0]);
   CHECK(brightness(glass) != brightness(hidden));
   for (int c = 0; c < 3; ++c) CHECK(std::abs(glass[static_cast<std::size_t>(c)] - hidden[static_cast<std::size_t>(c)]) < 40);
+  const std::string around = "{plane: {point: [0, 0, 5], normal: [0, 0, 1]}, color: [0.05, 0.9, 0.05]}";
+  scene.bodies = "[" + wall + ", " + around + "]";
+  CHECK(pixel("solid") == solid);
 }
