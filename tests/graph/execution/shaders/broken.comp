@@ -1,0 +1,3 @@
+void main() {
+  runs[0] = mistyped;
+}
