@@ -98,6 +98,9 @@ int run(const RunOptions& options) {
   } catch (const execution::NumbersError& error) {
     conclude(Status::numbers_broke, error.what());
     throw;
+  } catch (const gpu::DeviceError& error) {
+    conclude(Status::device_lacks, error.what());
+    throw;
   } catch (const std::exception& error) {
     conclude(Status::failed, error.what());
     throw;
