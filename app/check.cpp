@@ -15,9 +15,9 @@ void add_check(CLI::App& program, Action& action) {
       print(loaded.diagnostics);
       std::size_t work = 0;
       for (const graph::PlannedStage& stage : loaded.plan.stages) work += stage.spec.work.size();
-      fmt::print("{}: {} stages, {} kernels and host calls, {} buffers, {:.1f} MiB on the device; {} warnings\n",
-                 loaded.pipeline_file, loaded.plan.stages.size(), work, loaded.plan.buffers.size(),
-                 static_cast<double>(loaded.plan.bytes) / (1 << 20), loaded.diagnostics.all().size());
+      fmt::print("{}: {} stages, {} kernels and host calls, {} buffers, {:.1f} MiB on the device; {} {}\n", loaded.pipeline_file,
+                 loaded.plan.stages.size(), work, loaded.plan.buffers.size(), static_cast<double>(loaded.plan.bytes) / (1 << 20),
+                 loaded.diagnostics.all().size(), loaded.diagnostics.all().size() == 1 ? "warning" : "warnings");
       return static_cast<int>(Status::done);
     };
   });

@@ -34,7 +34,7 @@ void Progress::print(double done, std::uint64_t frame, std::uint64_t step) {
   const double share = total_ > 0 ? std::clamp(done / total_, 0.0, 1.0) : 1.0;
   const double passed = std::chrono::duration<double>(Clock::now() - start_).count();
   const double rate = passed > 0 ? static_cast<double>(step) / passed : 0;
-  const std::string left = share > 0 ? clock_text(passed * (1 - share) / share) : "?";
+  const std::string left = share > 0 && passed > 2 ? clock_text(passed * (1 - share) / share) : "?";
   if (terminal_) {
     constexpr int width = 30;
     const auto filled = static_cast<std::size_t>(share * width);

@@ -42,12 +42,26 @@ void warn_of_long_steps(const scene::Scene& scene) {
                  limit);
 }
 
+// Pictures of an earlier, longer run must not be taken for this one's. Only what Firn itself wrote is removed: files by its own
+// names, in a folder with its manifest.
+void remove_earlier_run(const fs::path& output) {
+  if (!fs::exists(output / "manifest.json")) return;
+  fs::remove(output / "manifest.json");
+  fs::remove(output / "video.mp4");
+  if (!fs::is_directory(output / "frames")) return;
+  for (const fs::directory_entry& entry : fs::directory_iterator(output / "frames")) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("frame_") && name.ends_with(".png")) fs::remove(entry.path());
+  }
+}
+
 void prepare_output(const std::string& output) {
-  std::error_code error;
-  fs::create_directories(output, error);
-  if (error) throw std::runtime_error(fmt::format("cannot make the folder {}: {}", output, error.message()));
-  // Pictures of an earlier, longer run must not be taken for this one's.
-  for (const char* old : {"frames", "video.mp4", "manifest.json"}) fs::remove_all(fs::path(output) / old, error);
+  try {
+    fs::create_directories(output);
+    remove_earlier_run(output);
+  } catch (const fs::filesystem_error& error) {
+    throw std::runtime_error(fmt::format("cannot make the folder {}: {}", output, error.code().message()));
+  }
 }
 
 int run(const RunOptions& options) {
@@ -120,7 +134,7 @@ void add_run(CLI::App& program, Action& action) {
   add_inputs(*verb, options->inputs);
   verb->add_option("--steps", options->steps, "Stop after so many steps")->check(CLI::NonNegativeNumber);
   verb->add_option("--frames", options->frames, "Stop after so many frames")->check(CLI::NonNegativeNumber)->excludes("--steps");
-  verb->add_option("--out", options->output, "Folder for results (default: out/<pipeline>)");
+  verb->add_option("--out", options->output, "Folder for results (default: out/<pipeline>, with --scene out/<pipeline>-<scene>)");
   verb->add_option("--dump", options->dumps, "BUFFER=FILE.npy: write a buffer at the end")->allow_extra_args(false);
   verb->add_option("--device", options->device,
                    "auto (hardware first), hardware, software, a number as doctor lists them, or part of a name")

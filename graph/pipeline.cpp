@@ -323,6 +323,10 @@ PipelineSpec load_pipeline(const std::filesystem::path& file, const Edits& edits
   pipeline.file = file.string();
   Node root = load_merged(file, {}, diagnostics);
   if (root.kind == Node::Kind::null && diagnostics.has_errors()) return pipeline;
+  if (root.find("step") == nullptr && (root.find("domain") != nullptr || root.find("snow") != nullptr)) {
+    diagnostics.error(root.place, "this is a scene, not a pipeline: name a pipeline, and this file by --scene");
+    return pipeline;
+  }
   for (const auto& [group, stages] : edits.replace) replace_group(root, group, stages, stages.place, diagnostics);
   set_parameters(root, edits, pipeline, diagnostics);
   for (const char* phase : phase_names)

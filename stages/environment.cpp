@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scene/materials.h"
 #include "scene/solid.h"
@@ -26,13 +27,24 @@ double crowd(const scene::Scene& scene) {
 void add_scales(const Problem& problem, graph::Environment& environment) {
   const double heaviest = problem.particles.mass.empty() ? 1.0 : *std::ranges::max_element(problem.particles.mass);
   const double mass_bound = 125.0 / 27.0 * crowd(problem.scene) * heaviest;
-  const double momentum_bound = mass_bound * 2.0 * speed_bound(problem.scene);
+  double fastest = speed_bound(problem.scene);
+  for (const scene::Vector3d& v : problem.particles.velocity) fastest = std::max(fastest, 2.0 * v.norm());  // from files of points
+  const double momentum_bound = mass_bound * 2.0 * fastest;
   constexpr double range = 2147483647.0;
   environment.constants.push_back(
       {"mass_scale", ElementType::float1, power_of_two_below(range / mass_bound), "1/kg", "fixed-point steps per kg of node mass"});
   environment.constants.push_back({"momentum_scale", ElementType::float1, power_of_two_below(range / momentum_bound), "s/(kg m)",
                                    "fixed-point steps per kg m/s of node momentum"});
   environment.constants.push_back({"crowd", ElementType::float1, crowd(problem.scene), "1", "bound of particles in one cell"});
+}
+
+// The farthest point of a shape from its body's origin, m; infinite for half-spaces and meshes.
+double extent(const scene::Shape& shape) {
+  if (const auto* sphere = std::get_if<scene::Sphere>(&shape)) return sphere->center.norm() + sphere->radius;
+  if (const auto* box = std::get_if<scene::Box>(&shape)) return box->center.norm() + box->half_size.norm();
+  if (const auto* capsule = std::get_if<scene::Capsule>(&shape))
+    return std::max(capsule->start.norm(), capsule->end.norm()) + capsule->radius;
+  return std::numeric_limits<double>::infinity();
 }
 
 void add_grid(const scene::Domain& domain, graph::Environment& environment) {
@@ -109,7 +121,9 @@ double speed_bound(const scene::Scene& scene) {
     fastest = std::max(fastest, snow.velocity.norm() + snow.spin.norm() * reach);
   }
   for (const scene::Body& body : scene.bodies) {
-    fastest = std::max(fastest, body.velocity.norm() + body.spin.norm());
+    // A turning body carries along what it touches, at most as far out as the domain is wide.
+    const double reach = scene.domain ? (scene.domain->max - scene.domain->min).norm() : 0;
+    fastest = std::max(fastest, body.velocity.norm() + body.spin.norm() * std::min(reach, extent(body.shape)));
     for (std::size_t k = 1; k < body.path.size(); ++k) {
       const double span = body.path[k].time - body.path[k - 1].time;
       if (span > 0) fastest = std::max(fastest, (body.path[k].position - body.path[k - 1].position).norm() / span);

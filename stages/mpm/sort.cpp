@@ -13,7 +13,7 @@ graph::StageSpec sort() {
   return {
       .name = "mpm.sort",
       .doc = "Sorts particles by the grid cell they lie in (counting sort), within one cell by number",
-      .equation = "counting sort",
+      .equation = "",
       .ports = {position(read), order(write), cell_start(read_write), own("cell_count", "nodes", "particles of every cell"),
                 own("row_count", "grid_rows", "particles of every row of cells"),
                 own("row_start", "grid_rows", "place of every row's first particle"),

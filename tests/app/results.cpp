@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "scene/npy.h"
@@ -133,4 +134,47 @@ TEST_CASE("a manifest is written whatever bytes the command line has", "[app]") 
   INFO(outcome.err);
   CHECK(outcome.status == 0);
   CHECK(nlohmann::json::parse(read_file(output + "/manifest.json")).at("result").at("steps") == 1);
+}
+
+TEST_CASE("a run removes nothing from its folder but what an earlier run wrote", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("scene.yaml", small_scene);
+  std::filesystem::create_directories(folder / "out/frames");
+  const std::string own = folder.write("out/frames/holiday.jpg", "mine"),
+                    picture = folder.write("out/frames/frame_0007.png", "mine too");
+  REQUIRE(run_firn(run_without_pictures("mpm_snow", scene, folder / "out", {"--steps", "1"})).status == 0);
+  CHECK(std::filesystem::exists(own));
+  CHECK(std::filesystem::exists(picture));  // no manifest lay beside it: it was not ours
+  REQUIRE(run_firn(run_without_pictures("mpm_snow", scene, folder / "out", {"--steps", "1"})).status == 0);
+  CHECK(std::filesystem::exists(own));
+  CHECK_FALSE(std::filesystem::exists(picture));
+}
+
+TEST_CASE("an automatic time step meets every frame and is as long as the CFL condition allows", "[app]") {
+  for (const char* pipeline : {"mpm_snow", "mpm_thesis"}) {
+    CAPTURE(pipeline);
+    const Folder folder;
+    const std::string scene = folder.write("scene.yaml", small_scene);
+    const auto steps = [&](const std::string& cfl) {
+      const Outcome outcome = run_firn(run_without_pictures(
+          pipeline, scene, folder / "out", {"--set", "scene.time.dt=auto", "--set", "scene.time.cfl=" + cfl, "--frames", "6"}));
+      INFO(outcome.err);
+      REQUIRE(outcome.status == 0);
+      const nlohmann::json result = nlohmann::json::parse(read_file(folder / "out/manifest.json"))["result"];
+      CHECK(result["simulated_seconds"].get<double>() == Approx(0.005).margin(1e-9));
+      return result["steps"].get<int>();
+    };
+    const int coarse = steps("0.4"), fine = steps("0.1");
+    CAPTURE(coarse, fine);
+    CHECK(fine > 2 * coarse);
+    CHECK(coarse >= 5);
+  }
+}
+
+TEST_CASE("a scene given as a pipeline is told as such, once", "[app]") {
+  const Folder folder;
+  const Outcome outcome = run_firn({"check", folder.write("scene.yaml", small_scene)});
+  CHECK(outcome.status == 2);
+  CHECK(outcome.err.find("this is a scene, not a pipeline") != std::string::npos);
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
 }
