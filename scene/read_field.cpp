@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/image.h"
 #include "scene/read.h"
 
 namespace firn::scene::detail {
@@ -11,12 +12,14 @@ namespace {
 
 constexpr double most_cells = 2147483648.0;  // 2^31: cells are counted in 32 bits on the device
 
-// A number, or {image: file, <unit_key>: value where the image is white}.
+// A number, or {image: file, <unit_key>: value where the image is white}. Arrays hold plain values: their <unit_key> may be left
+// out.
 FieldSource read_source(Reader& field, const char* key, const char* unit_key, const Range& range, double fallback,
                         const std::filesystem::path& folder) {
   FieldSource source;
   source.value = fallback;
   const Node* node = field.find(key);
+  source.place = node != nullptr ? node->place : field.node().place;
   if (node == nullptr) return source;
   Diagnostics& diagnostics = field.diagnostics();
   if (node->kind != Node::Kind::map) {
@@ -27,14 +30,14 @@ FieldSource read_source(Reader& field, const char* key, const char* unit_key, co
   }
   Reader reader(*node, fmt::format("the field's {}", key), diagnostics);
   source.image = required_file(reader, "image", folder).value_or("");
-  source.unit_value = reader.required_number(unit_key, range);
+  source.unit_value = is_array(source.image) ? reader.number(unit_key, 1, range) : reader.required_number(unit_key, range);
   reader.finish();
   return source;
 }
 
 void check_cells(const Node& node, const Field& field, Diagnostics& diagnostics) {
   const double cell_x = field.size.x() / field.cells_x, cell_z = field.size.y() / field.cells_z;
-  if (std::abs(cell_x - cell_z) > 1e-9 * std::max(cell_x, cell_z)) {
+  if (std::abs(cell_x - cell_z) > 1e-6 * std::max(cell_x, cell_z)) {
     diagnostics.error(
         node.find("cells")->place,
         fmt::format("the field's cells must be square, but are {:.9g} m x {:.9g} m; a size of [{:.9g}, {:.9g}] fits these cells",
@@ -51,6 +54,7 @@ void check_cells(const Node& node, const Field& field, Diagnostics& diagnostics)
 }
 
 void check_density(const Node& node, const FieldSource& density, const Material& material, Diagnostics& diagnostics) {
+  if (is_array(density.image)) return;  // sample_field sees its values
   const double value = density.image.empty() ? density.value : density.unit_value;
   if (std::isnan(value) || (value >= material.min_density && value <= material.max_density)) return;
   const Node* at = node.find("density");
@@ -78,7 +82,7 @@ std::optional<Field> read_field(const Node& node, const std::filesystem::path& f
     return list == nullptr ? std::nullopt : read_numbers(*list, what, 2, range, diagnostics);
   };
   const std::optional<std::vector<double>> extents = pair(size, "size [x, z]", positive);
-  std::optional<std::vector<double>> counts = pair(cells, "cells [x, z]", {2, 1 << 20});
+  std::optional<std::vector<double>> counts = pair(cells, "cells [x, z]", {1, 1 << 20});
   for (int i = 0; counts && i < 2; ++i) {
     if (!config::read_integer(cells->items[static_cast<std::size_t>(i)], "cells [x, z]", {}, diagnostics)) counts.reset();
   }

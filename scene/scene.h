@@ -85,11 +85,12 @@ struct Snow {
 
 // --- the field that the height-field model works on -------------------------------------------------------------------------
 
-// A number for the whole field, or an image with the value of white in `unit_value` (file key: metres, or density).
+// A number for the whole field, or an image (scene/image.h) with the value of white in `unit_value` (file key: metres, or density).
 struct FieldSource {
   double value = 0;
   std::string image;      // empty: `value` everywhere
-  double unit_value = 1;  // value where the image is white
+  double unit_value = 1;  // value where the image is white (.npy: where the array holds 1)
+  Place place;            // of the number or the map; of the field where the file gives neither
 };
 struct Field {
   Vector2d size{10, 10};  // m, along x and z

@@ -4,6 +4,7 @@
 
 #include "scene/materials.h"
 #include "scene/solid.h"
+#include "stages/heightfield_ports.h"
 #include "stages/problem.h"
 
 namespace firn::stages {
@@ -63,6 +64,28 @@ void add_grid(const scene::Domain& domain, graph::Environment& environment) {
                                    graph::Vector3{double(nodes.x()), double(nodes.y()), double(nodes.z())}, "1", "nodes per axis"});
 }
 
+void add_field(const scene::Scene& scene, graph::Environment& environment) {
+  const scene::Field& field = *scene.field;
+  const int tiles_x = (field.cells_x + heightfield::tile_edge - 1) / heightfield::tile_edge;
+  const int tiles_z = (field.cells_z + heightfield::tile_edge - 1) / heightfield::tile_edge;
+  const auto grid = [](int width, int height) {
+    const auto columns = static_cast<std::uint64_t>(width), rows = static_cast<std::uint64_t>(height);
+    return graph::DomainSize{columns * rows, width, height, {rows, columns}};
+  };
+  environment.domains["cells"] = grid(field.cells_x, field.cells_z);
+  environment.domains["tiles"] = grid(tiles_x, tiles_z);
+  const scene::Material& material = scene.materials[static_cast<std::size_t>(field.material)];
+  environment.constants.push_back({"field_min", ElementType::vec3, graph::Vector3{field.origin.x(), 0, field.origin.y()}, "m",
+                                   "lowest corner of the field, at height 0"});
+  environment.constants.push_back(
+      {"field_cell", ElementType::float1, field.size.x() / field.cells_x, "m", "edge h of a cell of the field"});
+  environment.constants.push_back(
+      {"min_density", ElementType::float1, material.min_density, "kg/m3", "density below which snow is pressed, not pushed away"});
+  environment.constants.push_back(
+      {"max_density", ElementType::float1, material.max_density, "kg/m3", "density that snow cannot be pressed beyond"});
+  environment.constants.push_back({"material_slope", ElementType::float1, material.slope, "m/m", "steepest slope that stands"});
+}
+
 // The box that holds what a picture shows: the domain, the field with its snow, else the bodies.
 scene::Bounds visible(const scene::Scene& scene) {
   Eigen::AlignedBox3d box;
@@ -105,7 +128,8 @@ void say_what_is_missing(graph::Environment& environment) {
   for (const char* name : {"particles", "nodes", "grid_rows", "grid_blocks", "grid_min", "grid_cell", "grid_nodes", "mass_scale",
                            "momentum_scale", "crowd"})
     environment.missing[name] = no_grid;
-  environment.missing["cells"] = "the scene has no 'field'";
+  for (const char* name : {"cells", "tiles", "field_min", "field_cell", "min_density", "max_density", "material_slope"})
+    environment.missing[name] = "the scene has no 'field'";
 }
 
 }  // namespace
@@ -146,7 +170,17 @@ double stable_time_step(const scene::Scene& scene) {
 
 std::shared_ptr<const Problem> make_problem(scene::Scene scene, Image image, std::string output) {
   scene::Particles particles = scene::sample(scene);
-  return std::make_shared<const Problem>(Problem{std::move(scene), std::move(particles), image, std::move(output)});
+  std::vector<scene::TriangleMesh> meshes = scene::body_meshes(scene);
+  return std::make_shared<const Problem>(
+      Problem{std::move(scene), std::move(particles), std::move(meshes), image, std::move(output)});
+}
+
+std::size_t facet_count(const Problem& problem) {
+  std::size_t facets = 0;
+  for (const scene::Body& body : problem.scene.bodies)
+    if (std::holds_alternative<scene::Box>(body.shape)) facets += 12;
+  for (const scene::TriangleMesh& mesh : problem.meshes) facets += mesh.triangles.size();
+  return facets;
 }
 
 graph::Environment environment(const Problem& problem) {
@@ -159,6 +193,7 @@ graph::Environment environment(const Problem& problem) {
   std::size_t key_frames = 0;
   for (const scene::Body& body : scene.bodies) key_frames += body.path.size();
   result.domains["key_frames"] = count(key_frames);
+  result.domains["facets"] = count(facet_count(problem));
   const auto image = [](int width, int height) {
     return graph::DomainSize{static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height), width, height};
   };
@@ -172,6 +207,7 @@ graph::Environment environment(const Problem& problem) {
     add_grid(*scene.domain, result);
     add_scales(problem, result);
   }
+  if (scene.field) add_field(scene, result);
   result.choices["time_step"] = scene.time.dt ? "fixed" : "auto";
   return result;
 }

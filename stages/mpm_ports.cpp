@@ -125,14 +125,18 @@ Port body(const char* name, Access access, Usage usage) {
     const char *unit, *doc;
   };
   static constexpr Facts table[] = {
-      {"body_kind", ElementType::int1, "1", "0 half-space, 1 sphere, 2 box, 3 capsule"},
-      {"body_size", ElementType::vec4, "m", "sphere: radius; box: half edges; capsule: radius, half length along local y"},
+      {"body_kind", ElementType::int1, "1", "0 half-space, 1 sphere, 2 box, 3 capsule, 4 mesh"},
+      {"body_size", ElementType::vec4, "m",
+       "sphere: radius; box: half edges; capsule: radius, half length along local y; mesh: farthest point along each axis"},
       {"body_position", ElementType::vec3, "m", "origin of the body; a point on the plane of a half-space"},
       {"body_orientation", ElementType::vec4, "1", "quaternion x, y, z, w; a half-space's outward normal is local +y"},
       {"body_velocity", ElementType::vec3, "m/s", "velocity of the origin"},
       {"body_spin", ElementType::vec3, "rad/s", "angular velocity, world axes"},
       {"body_friction", ElementType::float1, "1", "Coulomb coefficient"},
       {"body_mass", ElementType::float1, "kg", "mass; 0: moves as told"},
+      {"body_inertia", ElementType::vec3, "kg m2", "moments about the body's own axes; 0: nothing turns it"},
+      {"body_position_before", ElementType::vec3, "m", "origin of the body a step before"},
+      {"body_orientation_before", ElementType::vec4, "1", "orientation a step before"},
       {"body_path", ElementType::ivec2, "1", "first key frame, number of key frames"},
       {"body_color", ElementType::vec3, "1", "colour, sRGB"},
   };

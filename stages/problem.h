@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "graph/environment.h"
+#include "scene/mesh.h"
 #include "scene/sampling.h"
 #include "scene/scene.h"
 
@@ -17,6 +18,7 @@ struct Image {
 struct Problem {
   scene::Scene scene;
   scene::Particles particles;
+  std::vector<scene::TriangleMesh> meshes;  // per body; empty for other shapes
   Image image;
   std::string output;  // folder for what stages write; empty: they write nothing
 };
@@ -24,8 +26,11 @@ struct Problem {
 // Throws config::InputError where files of the scene cannot be read.
 std::shared_ptr<const Problem> make_problem(scene::Scene scene, Image image, std::string output);
 
-// Domains: particles, materials, nodes, grid_rows, grid_blocks, bodies, key_frames, image, shadow_map. Constants: see
-// environment.cpp.
+// Triangles of all boxes and meshes among the bodies.
+std::size_t facet_count(const Problem& problem);
+
+// Domains: particles, materials, nodes, grid_rows, grid_blocks, cells, tiles, bodies, key_frames, facets, image, shadow_map.
+// Constants: see environment.cpp.
 graph::Environment environment(const Problem& problem);
 
 // Bound of all speeds that the scene can bring about, m/s: initial speeds, bodies, and what gravity adds; for fixed-point scales.

@@ -2,6 +2,19 @@
 
 #include "stages/bodies/integrate.h"
 #include "stages/bodies/place.h"
+#include "stages/heightfield/active_tiles.h"
+#include "stages/heightfield/compress.h"
+#include "stages/heightfield/contour.h"
+#include "stages/heightfield/deposit.h"
+#include "stages/heightfield/distance_transform.h"
+#include "stages/heightfield/distribute_contour.h"
+#include "stages/heightfield/distribute_distance.h"
+#include "stages/heightfield/flatten.h"
+#include "stages/heightfield/init.h"
+#include "stages/heightfield/overlap.h"
+#include "stages/heightfield/resistance.h"
+#include "stages/heightfield/support.h"
+#include "stages/heightfield/underside.h"
 #include "stages/io/frames.h"
 #include "stages/io/video.h"
 #include "stages/mpm/active_blocks.h"
@@ -30,6 +43,19 @@ graph::Registry all_stages(const std::shared_ptr<const Problem>& problem) {
   graph::Registry registry;
   registry.add(bodies::integrate());
   registry.add(bodies::place(), bodies::placing(problem));
+  registry.add(heightfield::active_tiles());
+  registry.add(heightfield::compress());
+  registry.add(heightfield::contour());
+  registry.add(heightfield::deposit());
+  registry.add(heightfield::distance_transform());
+  registry.add(heightfield::distribute_contour());
+  registry.add(heightfield::distribute_distance());
+  registry.add(heightfield::flatten());
+  registry.add(heightfield::init(), heightfield::initialising(problem));
+  registry.add(heightfield::overlap());
+  registry.add(heightfield::resistance());
+  registry.add(heightfield::support());
+  registry.add(heightfield::underside());
   registry.add(io::frames(), io::writing_frames(problem));
   registry.add(io::video(), io::writing_video(problem));
   registry.add(mpm::active_blocks_stage());

@@ -5,13 +5,7 @@
 
 #if ACCUMULATE_FIXED
 
-// A number in [0, 1) that depends on its arguments only (Jarzynski and Olano 2020: PCG).
-float dither(uint a, uint b, uint c) {
-  uint state = (a ^ (b * 2654435769u)) + c * 2246822519u;
-  state = state * 747796405u + 2891336453u;
-  uint word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-  return float(((word >> 22u) ^ word) >> 8u) / 16777216.0;
-}
+#include "lib/dither.glsl"
 
 // Rounded up or down by a repeatable throw of the dice, so that sums are right on average: to the nearest, the many contributions below half
 // a step would all be lost, and with them momentum. Held within what an int has; a NaN counts as overflow.

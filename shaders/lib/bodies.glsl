@@ -2,9 +2,7 @@
 // body_velocity, body_spin, body_friction.
 // Kinds: 0 half-space (body_position on its plane, outward normal along local +y), 1 sphere (size.x: radius), 2 box (size: half edges),
 // 3 capsule (size.x: radius, size.y: half the length of its axis, along local y).
-
-vec3 turned(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
-vec3 turned_back(vec4 q, vec3 v) { return turned(vec4(-q.xyz, q.w), v); }
+#include "lib/turn.glsl"
 
 // Signed distance to the surface (negative inside) in w, outward unit normal in xyz.
 vec4 body_surface(int b, vec3 x) {

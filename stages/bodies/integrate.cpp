@@ -1,8 +1,18 @@
 #include "stages/bodies/integrate.h"
 
+#include "stages/heightfield_ports.h"
 #include "stages/mpm_ports.h"
 
 namespace firn::stages::bodies {
+namespace {
+
+graph::Port optional_body(const char* name, graph::Access access) {
+  graph::Port port = mpm::body(name, access);
+  port.optional = true;
+  return port;
+}
+
+}  // namespace
 
 graph::StageSpec integrate() {
   using enum graph::Access;
@@ -11,12 +21,19 @@ graph::StageSpec integrate() {
     ports.push_back(mpm::body(name, read_write));
   for (const char* name : {"body_mass", "body_path"}) ports.push_back(mpm::body(name, read));
   for (const graph::Port& port : mpm::key_frames(read)) ports.push_back(port);
-  return {.name = "bodies.integrate",
-          .doc = "Moves rigid bodies over one step: along their paths, by gravity where they have a mass, else as told",
-          .equation = "[M 3.4 step 10]",
-          .ports = ports,
-          .constants = {"gravity"},
-          .work = {graph::Dispatch{.kernel = "bodies/integrate.comp", .over = "bodies"}}};
+  ports.push_back(optional_body("body_inertia", read));
+  for (const char* name : {"resistance", "contact_point", "support", "support_point"})
+    ports.push_back(heightfield::optional(name, read));
+  for (const char* name : {"body_position_before", "body_orientation_before"}) ports.push_back(optional_body(name, write));
+  return {
+      .name = "bodies.integrate",
+      .doc =
+          "Moves rigid bodies over one step: along their paths; else, where they have a mass, by gravity and what the snow does "
+          "to them; else as told",
+      .equation = "[M 3.4 step 10, H 3.8]",
+      .ports = ports,
+      .constants = {"gravity"},
+      .work = {graph::Dispatch{.kernel = "bodies/integrate.comp", .over = "bodies"}}};
 }
 
 }  // namespace firn::stages::bodies

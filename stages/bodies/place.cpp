@@ -1,5 +1,7 @@
 #include "stages/bodies/place.h"
 
+#include "scene/inertia.h"
+#include "stages/heightfield_ports.h"
 #include "stages/mpm_ports.h"
 
 namespace firn::stages::bodies {
@@ -7,50 +9,85 @@ namespace {
 
 using graph::Access;
 using graph::Usage;
+using scene::Quaterniond;
+using scene::Vector3d;
 
-enum Kind : std::int32_t { half_space = 0, sphere = 1, box = 2, capsule = 3 };  // as shaders/lib/bodies.glsl has it
+enum Kind : std::int32_t { half_space = 0, sphere = 1, box = 2, capsule = 3, mesh = 4 };  // as shaders/lib/bodies.glsl has it
 
 void put(std::vector<float>& values, std::initializer_list<double> parts) {
   for (const double part : parts) values.push_back(static_cast<float>(part));
 }
-void put(std::vector<float>& values, const scene::Vector3d& v) { put(values, {v.x(), v.y(), v.z()}); }
-void put(std::vector<float>& values, const scene::Quaterniond& q) { put(values, {q.x(), q.y(), q.z(), q.w()}); }
+void put(std::vector<float>& values, const Vector3d& v) { put(values, {v.x(), v.y(), v.z()}); }
+void put(std::vector<float>& values, const Quaterniond& q) { put(values, {q.x(), q.y(), q.z(), q.w()}); }
 
-// A body as the GPU wants it: every shape about its own origin, its axis along local y.
+// A body as the GPU wants it: every shape about its own centre, along its own axes, which are those of its inertia. A capsule's
+// axis is local y.
 struct Placed {
   Kind kind = sphere;
   Eigen::Vector4d size{0, 0, 0, 0};
-  scene::Vector3d position{0, 0, 0};
-  scene::Quaterniond orientation = scene::Quaterniond::Identity();
+  Vector3d offset{0, 0, 0};  // of that centre in the scene's axes of the body
+  Quaterniond turn = Quaterniond::Identity();
+  Vector3d moments{0, 0, 0};      // kg m2; 0: nothing turns it
+  std::vector<Vector3d> corners;  // of its facets, three each
 };
 
-Placed placed(const scene::Body& body) {
+std::vector<Vector3d> box_corners(const Vector3d& half) {
+  std::vector<Vector3d> corners;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-1.0, 1.0}) {
+      const auto corner = [&](double u, double v) {
+        Vector3d point;
+        point[axis] = side * half[axis];
+        point[(axis + 1) % 3] = side * u * half[(axis + 1) % 3];  // so that every face is counter-clockwise seen from outside
+        point[(axis + 2) % 3] = v * half[(axis + 2) % 3];
+        return point;
+      };
+      for (const auto& [u, v] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, -1}, {1, 1}, {-1, 1}}) corners.push_back(corner(u, v));
+    }
+  return corners;
+}
+
+Placed placed(const scene::Body& body, const scene::TriangleMesh& triangles) {
   Placed result;
-  result.position = body.position;
-  result.orientation = body.orientation;
-  const scene::Vector3d up = scene::Vector3d::UnitY();
+  const Vector3d up = Vector3d::UnitY();
+  const auto moments = [&] { return body.mass ? scene::inertia_of(body.shape, *body.mass).moments : Vector3d(0, 0, 0); };
   if (const auto* plane = std::get_if<scene::Plane>(&body.shape)) {
     result.kind = half_space;
-    result.position = body.position + body.orientation * plane->point;
-    result.orientation = body.orientation * scene::Quaterniond::FromTwoVectors(up, plane->normal);
+    result.offset = plane->point;
+    result.turn = Quaterniond::FromTwoVectors(up, plane->normal);
   } else if (const auto* ball = std::get_if<scene::Sphere>(&body.shape)) {
     result.kind = sphere;
     result.size.x() = ball->radius;
-    result.position = body.position + body.orientation * ball->center;
+    result.offset = ball->center;
+    result.moments = moments();
   } else if (const auto* block = std::get_if<scene::Box>(&body.shape)) {
     result.kind = box;
     result.size.head<3>() = block->half_size;
-    result.position = body.position + body.orientation * block->center;
+    result.offset = block->center;
+    result.moments = moments();
+    result.corners = box_corners(block->half_size);
   } else if (const auto* rod = std::get_if<scene::Capsule>(&body.shape)) {
     result.kind = capsule;
-    const scene::Vector3d axis = rod->end - rod->start;
+    const Vector3d axis = rod->end - rod->start;
     result.size.head<2>() = Eigen::Vector2d(rod->radius, 0.5 * axis.norm());
-    result.position = body.position + body.orientation * (0.5 * (rod->start + rod->end));
-    if (axis.norm() > 0) result.orientation = body.orientation * scene::Quaterniond::FromTwoVectors(up, axis);
+    result.offset = 0.5 * (rod->start + rod->end);
+    if (axis.norm() > 0) result.turn = Quaterniond::FromTwoVectors(up, axis);
+    const Vector3d own = moments();  // its symmetry axis first
+    result.moments = {own.y(), own.x(), own.z()};
   } else {
-    config::Diagnostics diagnostics;
-    diagnostics.error(body.place, "a mesh cannot be a collider of particles yet; use a plane, sphere, box or capsule");
-    throw config::InputError(diagnostics);
+    result.kind = mesh;
+    if (body.mass) {
+      const scene::Inertia inertia = scene::inertia_of(triangles, *body.mass);
+      result.offset = inertia.center;
+      result.turn = inertia.axes;
+      result.moments = inertia.moments;
+    }
+    for (const std::array<int, 3>& triangle : triangles.triangles)
+      for (const int corner : triangle) {
+        const Vector3d own = result.turn.conjugate() * (triangles.points[static_cast<std::size_t>(corner)] - result.offset);
+        result.corners.push_back(own);
+        result.size.head<3>() = result.size.head<3>().cwiseMax(own.cwiseAbs());
+      }
   }
   return result;
 }
@@ -60,45 +97,60 @@ class Placing final : public graph::HostStage {
   explicit Placing(std::shared_ptr<const Problem> problem) : problem_(std::move(problem)) {}
 
   void run(graph::HostContext& context) override {
-    std::vector<std::int32_t> kind, path;
-    std::vector<float> size, position, orientation, velocity, spin, friction, mass, color, path_time, path_position,
-        path_orientation;
-    for (const scene::Body& body : problem_->scene.bodies) {
-      const Placed at = placed(body);
-      // The shape's own offset and turn, which key frames have on top.
-      const scene::Quaterniond own_turn = body.orientation.conjugate() * at.orientation;
-      const scene::Vector3d own_offset = body.orientation.conjugate() * (at.position - body.position);
-      kind.push_back(at.kind);
-      put(size, {at.size[0], at.size[1], at.size[2], at.size[3]});
-      put(position, body.path.empty() ? at.position : body.path.front().position + body.path.front().orientation * own_offset);
-      put(orientation, body.path.empty() ? at.orientation : body.path.front().orientation * own_turn);
+    std::vector<std::int32_t> kind, path, facet_body;
+    std::vector<float> size, position, orientation, velocity, spin, friction, mass, inertia, color, path_time, path_position,
+        path_orientation, facet_points;
+    const std::vector<scene::Body>& bodies = problem_->scene.bodies;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      const scene::Body& body = bodies[b];
+      const Placed own = placed(body, problem_->meshes[b]);
+      const auto put_pose = [&](const Vector3d& place, const Quaterniond& turn, std::vector<float>& places,
+                                std::vector<float>& turns) {
+        put(places, place + turn * own.offset);
+        put(turns, turn * own.turn);
+      };
+      kind.push_back(own.kind);
+      put(size, {own.size[0], own.size[1], own.size[2], own.size[3]});
+      if (body.path.empty())
+        put_pose(body.position, body.orientation, position, orientation);
+      else
+        put_pose(body.path.front().position, body.path.front().orientation, position, orientation);
       put(velocity, body.velocity);
       put(spin, body.spin);
       put(friction, {body.friction});
       put(mass, {body.mass.value_or(0.0)});
+      put(inertia, own.moments);
       put(color, body.color);
       path.push_back(static_cast<std::int32_t>(path_time.size()));
       path.push_back(static_cast<std::int32_t>(body.path.size()));
       for (const scene::KeyFrame& key : body.path) {
         put(path_time, {key.time});
-        put(path_position, key.position + key.orientation * own_offset);
-        put(path_orientation, key.orientation * own_turn);
+        put_pose(key.position, key.orientation, path_position, path_orientation);
       }
+      for (const Vector3d& corner : own.corners) put(facet_points, corner);
+      facet_body.insert(facet_body.end(), own.corners.size() / 3, static_cast<std::int32_t>(b));
     }
-    context.write_integers("body_kind", kind);
-    context.write_integers("body_path", path);
-    const std::pair<const char*, const std::vector<float>*> fields[] = {{"body_size", &size},
+    const std::pair<const char*, const std::vector<std::int32_t>*> integers[] = {
+        {"body_kind", &kind}, {"body_path", &path}, {"facet_body", &facet_body}};
+    for (const auto& [port, values] : integers)
+      if (context.bound(port)) context.write_integers(port, *values);
+    const std::pair<const char*, const std::vector<float>*> floats[] = {{"body_size", &size},
                                                                         {"body_position", &position},
                                                                         {"body_orientation", &orientation},
+                                                                        {"body_position_before", &position},
+                                                                        {"body_orientation_before", &orientation},
                                                                         {"body_velocity", &velocity},
                                                                         {"body_spin", &spin},
                                                                         {"body_friction", &friction},
                                                                         {"body_mass", &mass},
+                                                                        {"body_inertia", &inertia},
                                                                         {"body_color", &color},
                                                                         {"path_time", &path_time},
                                                                         {"path_position", &path_position},
-                                                                        {"path_orientation", &path_orientation}};
-    for (const auto& [port, values] : fields) context.write_floats(port, *values);
+                                                                        {"path_orientation", &path_orientation},
+                                                                        {"facet_points", &facet_points}};
+    for (const auto& [port, values] : floats)
+      if (context.bound(port)) context.write_floats(port, *values);
   }
 
  private:
@@ -113,13 +165,18 @@ graph::StageSpec place() {
                         .equation = "",
                         .ports = {},
                         .work = {graph::HostWork{}}};
+  const auto add = [&](graph::Port port, bool optional) {
+    port.usage = Usage::host;
+    port.optional = optional;
+    spec.ports.push_back(port);
+  };
   for (const char* name : {"body_kind", "body_size", "body_position", "body_orientation", "body_velocity", "body_spin",
                            "body_friction", "body_mass", "body_path", "body_color"})
-    spec.ports.push_back(mpm::body(name, Access::write, Usage::host));
-  for (graph::Port port : mpm::key_frames(Access::write)) {
-    port.usage = Usage::host;
-    spec.ports.push_back(port);
-  }
+    add(mpm::body(name, Access::write), false);
+  for (const graph::Port& port : mpm::key_frames(Access::write)) add(port, false);
+  for (const char* name : {"body_inertia", "body_position_before", "body_orientation_before"})
+    add(mpm::body(name, Access::write), true);
+  for (const char* name : {"facet_points", "facet_body"}) add(heightfield::port(name, Access::write), true);
   return spec;
 }
 

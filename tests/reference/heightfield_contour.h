@@ -1,8 +1,8 @@
 #pragma once
 
 // H5a [H 3.20-3.28]: what a body displaces is laid on the cells around it, most where it pushes.
-// Each body is taken by itself: its overlap is D where it owns the cell and 0 elsewhere, and a cell between two bodies lies on the
-// contours of both.
+// Each body is taken by itself: its overlap is D where it owns the cell and 0 elsewhere. A cell beside several bodies is on the
+// contour of the one that pushes most there, the first of equals.
 
 #include "tests/reference/heightfield_direction.h"
 
@@ -50,28 +50,47 @@ inline std::vector<ContourCell> contour(const Cells& overlap, const Owners& owne
   return result;
 }
 
-// What arrives where. `displaced`: what leaves each cell; `velocity`: per body. Each contour cell gets s_T s / k_T; even shares
-// where k_T = 0; snow of a body without a contour stays where it was.
-inline Amounts distribute_contour(const Amounts& displaced, const Cells& overlap, const Owners& owner,
-                                  const std::vector<Vector3d>& velocity, const Direction& direction) {
-  Amounts arriving = Amounts::none(overlap);
+// The contours of all bodies: factor s and body of every cell, 0 and -1 off them.
+struct Contours {
+  Cells weight;
+  Owners owner;
+};
+inline Contours contours(const Cells& overlap, const Owners& owner, const std::vector<Vector3d>& velocity,
+                         const Direction& direction) {
+  Contours result{Cells::Zero(overlap.rows(), overlap.cols()), Owners::Constant(overlap.rows(), overlap.cols(), -1)};
   for (int body = 0; body < static_cast<int>(velocity.size()); ++body) {
-    const std::vector<ContourCell> around = contour(overlap, owner, body, velocity[body], direction);
+    for (const ContourCell& cell : contour(overlap, owner, body, velocity[body], direction)) {
+      if (result.owner(cell.z, cell.x) >= 0 && cell.factor <= result.weight(cell.z, cell.x)) continue;
+      result.weight(cell.z, cell.x) = cell.factor;
+      result.owner(cell.z, cell.x) = body;
+    }
+  }
+  return result;
+}
+
+// What arrives where. `displaced`: what leaves each cell. Each contour cell of a body gets s_T s / k_T; even shares where k_T = 0;
+// snow of a body without a contour stays where it was.
+inline Amounts distribute_contour(const Amounts& displaced, const Owners& owner, const Contours& around, int bodies) {
+  Amounts arriving = Amounts::none(displaced.mass);
+  for (int body = 0; body < bodies; ++body) {
     const Cells own_mass = of_body(displaced.mass, owner, body);
     const Cells own_volume = of_body(displaced.volume, owner, body);
-    if (around.empty()) {
+    const auto here = around.owner == body;
+    const double k_t = here.select(around.weight, 0.0).sum(), count = static_cast<double>(here.count());
+    if (count == 0) {
       arriving.mass += own_mass;
       arriving.volume += own_volume;
       continue;
     }
-    double k_t = 0;
-    for (const ContourCell& cell : around) k_t += cell.factor;
-    for (const ContourCell& cell : around) {
-      const double share = k_t > 0 ? cell.factor / k_t : 1.0 / static_cast<double>(around.size());
-      arriving.add(cell.z, cell.x, share, own_mass.sum(), own_volume.sum());
-    }
+    const Cells share = k_t > 0 ? Cells(here.select(around.weight / k_t, 0.0)) : Cells(here.cast<double>() / count);
+    arriving.mass += share * own_mass.sum();
+    arriving.volume += share * own_volume.sum();
   }
   return arriving;
+}
+inline Amounts distribute_contour(const Amounts& displaced, const Cells& overlap, const Owners& owner,
+                                  const std::vector<Vector3d>& velocity, const Direction& direction) {
+  return distribute_contour(displaced, owner, contours(overlap, owner, velocity, direction), static_cast<int>(velocity.size()));
 }
 
 }  // namespace firn::reference

@@ -131,7 +131,7 @@ TEST_CASE("a value out of its range is an error") {
                               BadScene{"per_cell 65", "per_cell: 8", "per_cell: 65", "65", "per_cell"},
                               BadScene{"radius", "radius: 0.21", "radius: -0.21", "-0.21", "radius"},
                               BadScene{"field size", "size: [4, 2]", "size: [4, 0]", "0], cells", "size"},
-                              BadScene{"field cells", "cells: [64, 32]", "cells: [64, 1]", "1], origin", "cells"},
+                              BadScene{"field cells", "cells: [64, 32]", "cells: [64, 0]", "0], origin", "cells"},
                               BadScene{"depth", "depth: 0.4", "depth: -0.4", "-0.4, density", "depth"},
                               BadScene{"friction", "friction: 0.31", "friction: -0.31", "-0.31", "friction"},
                               BadScene{"mass", "mass: 4", "mass: 0", "0, color", "mass"},

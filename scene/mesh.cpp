@@ -1,0 +1,168 @@
+#include "scene/mesh.h"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <stdexcept>
+
+#include "config/diagnostics.h"
+
+namespace firn::scene {
+
+namespace {
+
+[[noreturn]] void fail(const std::string& file, const std::string& text) {
+  throw std::runtime_error(fmt::format("{}: {}", file, text));
+}
+
+void check_name(const std::string& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) fail(file, "this file does not exist");
+  if (!std::filesystem::is_regular_file(file, error)) fail(file, "this is no file");
+  std::string extension = std::filesystem::path(file).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (extension != ".obj" && extension != ".ply" && extension != ".stl")
+    fail(file, fmt::format("a mesh must be an .obj, .ply or .stl file, not '{}'", extension));
+}
+
+using Triangle = std::array<int, 3>;
+
+double signed_volume(const TriangleMesh& mesh) {
+  double volume = 0;
+  const Vector3d& from = mesh.points.front();  // near the mesh, so that little cancels
+  for (const Triangle& t : mesh.triangles)
+    volume += (mesh.points[t[0]] - from).dot((mesh.points[t[1]] - from).cross(mesh.points[t[2]] - from)) / 6;
+  return volume;
+}
+
+// Adds triangles as they come from the file: joins corners in one place, leaves out triangles without area.
+class Joining {
+ public:
+  explicit Joining(TriangleMesh& mesh) : mesh_(mesh) {}
+  int point(const Vector3d& place) {
+    const auto [at, fresh] = index_.try_emplace({place.x(), place.y(), place.z()}, static_cast<int>(mesh_.points.size()));
+    if (fresh) mesh_.points.push_back(place);
+    return at->second;
+  }
+  void triangle(const Triangle& t) {
+    const Vector3d a = mesh_.points[t[1]] - mesh_.points[t[0]], b = mesh_.points[t[2]] - mesh_.points[t[0]];
+    const double longest = std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()});
+    if (a.cross(b).norm() > 1e-12 * longest) mesh_.triangles.push_back(t);
+  }
+
+ private:
+  TriangleMesh& mesh_;
+  std::map<std::array<double, 3>, int> index_;
+};
+
+MassProperties of_box(const TriangleMesh& mesh) {
+  Vector3d low = mesh.points.front(), high = low;
+  for (const Vector3d& point : mesh.points) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  const Vector3d size = high - low, squared = size.cwiseProduct(size);
+  MassProperties result;
+  result.volume = size.prod();
+  result.center = 0.5 * (low + high);
+  result.inertia.diagonal() = result.volume / 12 * (Vector3d::Constant(squared.sum()) - squared);
+  return result;
+}
+
+}  // namespace
+
+TriangleMesh read_mesh(const std::string& file, double scale) {
+  check_name(file);
+  Assimp::Importer importer;
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  const aiScene* content = importer.ReadFile(file, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices);
+  if (content == nullptr) fail(file, fmt::format("this mesh cannot be read: {}", importer.GetErrorString()));
+
+  TriangleMesh mesh;
+  Joining joining(mesh);
+  for (unsigned m = 0; m < content->mNumMeshes; ++m) {
+    const aiMesh& part = *content->mMeshes[m];
+    std::vector<int> index(part.mNumVertices);
+    for (unsigned v = 0; v < part.mNumVertices; ++v) {
+      const aiVector3D& corner = part.mVertices[v];
+      const Vector3d place = scale * Vector3d(corner.x, corner.y, corner.z);
+      if (!place.allFinite())
+        fail(file, fmt::format("corner {} of this mesh is ({}, {}, {}), but must be finite", v + 1, corner.x, corner.y, corner.z));
+      index[v] = joining.point(place);
+    }
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      if (face.mNumIndices == 3) joining.triangle({index[face.mIndices[0]], index[face.mIndices[1]], index[face.mIndices[2]]});
+    }
+  }
+  if (mesh.triangles.empty()) fail(file, "this mesh has no triangles with an area");
+  if (is_closed(mesh) && signed_volume(mesh) < 0)
+    for (Triangle& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  return mesh;
+}
+
+std::vector<TriangleMesh> body_meshes(const Scene& scene) {
+  std::vector<TriangleMesh> meshes;
+  std::map<std::pair<std::string, double>, std::size_t> known;
+  config::Diagnostics diagnostics;
+  for (const Body& body : scene.bodies) {
+    meshes.emplace_back();
+    const auto* mesh = std::get_if<Mesh>(&body.shape);
+    if (mesh == nullptr) continue;
+    const auto [at, fresh] = known.try_emplace({mesh->file, mesh->scale}, meshes.size() - 1);
+    try {
+      meshes.back() = fresh ? read_mesh(mesh->file, mesh->scale) : meshes[at->second];
+    } catch (const std::runtime_error& error) {
+      diagnostics.error(body.place, error.what());
+    }
+  }
+  config::throw_if_errors(diagnostics);
+  return meshes;
+}
+
+bool is_closed(const TriangleMesh& mesh) {
+  std::map<std::pair<int, int>, int> balance;  // of an edge, from its lower to its higher point
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int from = t[i], to = t[(i + 1) % 3];
+      balance[std::minmax(from, to)] += from < to ? 1 : -1;
+    }
+  return !balance.empty() && std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
+}
+
+// Tetrahedra from the first point to every triangle, signed. With a, b, c from there and s = a + b + c, a tetrahedron of volume V
+// has the first moments V s/4 and the second moments V/20 (s s^T + a a^T + b b^T + c c^T) (Tonon 2004).
+MassProperties mass_properties(const TriangleMesh& mesh) {
+  if (!is_closed(mesh)) return of_box(mesh);
+  const Vector3d from = mesh.points.front();
+  double volume = 0;
+  Vector3d first = Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  for (const Triangle& t : mesh.triangles) {
+    const Vector3d a = mesh.points[t[0]] - from, b = mesh.points[t[1]] - from, c = mesh.points[t[2]] - from, sum = a + b + c;
+    const double part = a.dot(b.cross(c)) / 6;
+    volume += part;
+    first += part / 4 * sum;
+    second += part / 20 * (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
+  }
+  double reach = 0;
+  for (const Vector3d& point : mesh.points) reach = std::max(reach, (point - from).norm());
+  if (!(std::abs(volume) > 1e-12 * reach * reach * reach)) return of_box(mesh);  // folded flat: closed, but holds nothing
+  MassProperties result;
+  result.closed = true;
+  result.volume = volume;
+  const Vector3d shift = first / volume;
+  result.center = from + shift;
+  const Eigen::Matrix3d about = second - volume * shift * shift.transpose();  // parallel axes
+  result.inertia = about.trace() * Eigen::Matrix3d::Identity() - about;
+  return result;
+}
+
+}  // namespace firn::scene

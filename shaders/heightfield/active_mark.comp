@@ -1,0 +1,28 @@
+// One group per body: stamps the tiles that its bounding box covers, now or where it was before, and one cell around.
+#include "lib/cells.glsl"
+#include "lib/body_pose.glsl"
+
+// Half the extent along the world's axes of a body about its origin.
+vec3 half_extent(int body, vec4 turn) {
+  vec3 size = body_size[body].xyz;
+  int kind = body_kind[body];
+  if (kind == 1) return vec3(size.x);
+  if (kind == 3) return abs(turned(turn, vec3(0.0, size.y, 0.0))) + size.x;
+  return abs(turned(turn, vec3(size.x, 0.0, 0.0))) + abs(turned(turn, vec3(0.0, size.y, 0.0))) + abs(turned(turn, vec3(0.0, 0.0, size.z)));
+}
+
+void main() {
+  int body = int(group_number());
+  if (body >= int(bodies_count) || body_kind[body] == 0) return;
+  Pose now = pose(body), before = pose_before(body);
+  vec3 reach_now = half_extent(body, now.turn), reach_before = half_extent(body, before.turn);
+  vec2 low = min(now.place.xz - reach_now.xz, before.place.xz - reach_before.xz), high = max(now.place.xz + reach_now.xz, before.place.xz + reach_before.xz);
+  vec2 most = vec2(cells_width, cells_height);
+  // Clamped before they become whole numbers, which far-away bodies would overflow.
+  vec2 from = (low - field_min.xz) / field_cell - 2.0, to = (high - field_min.xz) / field_cell + 2.0;
+  if (any(lessThan(to, vec2(0.0))) || any(greaterThan(from, most)) || any(isnan(from)) || any(isnan(to))) return;
+  ivec2 first = ivec2(clamp(from, vec2(0.0), most - 1.0)) / tile_edge, last = ivec2(clamp(to, vec2(0.0), most - 1.0)) / tile_edge;
+  ivec2 extent = last - first + 1;
+  for (int t = int(gl_LocalInvocationID.x); t < extent.x * extent.y; t += int(gl_WorkGroupSize.x))
+    tile_stamp[(first.y + t / extent.x) * tile_counts().x + first.x + t % extent.x] = step + 2u;
+}

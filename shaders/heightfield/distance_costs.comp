@@ -1,0 +1,19 @@
+// Costs of a step in the eight directions for each body: 1/s along the axes, diagonals the Euclidean combination of their two sides.
+#include "lib/direction.glsl"
+
+const float infinity = uintBitsToFloat(0x7f800000u);
+
+float cost(vec3 velocity, vec2 to) {
+  float s = direction_factor(velocity, to);
+  return s > 0.0 ? 1.0 / s : infinity;
+}
+
+void main() {
+  uint body = element_index();
+  if (body >= bodies_count) return;
+  vec3 v = body_velocity[body];
+  float left = cost(v, vec2(-1, 0)), right = cost(v, vec2(1, 0)), down = cost(v, vec2(0, -1)), up = cost(v, vec2(0, 1));
+  step_costs[2u * body] = vec4(left, right, down, up);
+  step_costs[2u * body + 1u] =
+      vec4(length(vec2(left, down)), length(vec2(right, down)), length(vec2(left, up)), length(vec2(right, up)));
+}

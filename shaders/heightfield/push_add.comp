@@ -1,0 +1,3 @@
+#define ADDING
+#define EACH add
+#include "heightfield/push_addends.glsl"

@@ -1,0 +1,2 @@
+#include "heightfield/push_sums.glsl"
+#include "lib/sums_begin.glsl"

@@ -1,0 +1,3 @@
+#define NOTING
+#define EACH note
+#include "heightfield/push_addends.glsl"

@@ -1,0 +1,2 @@
+#include "heightfield/resistance_sums.glsl"
+#include "lib/sums_begin.glsl"

@@ -1,0 +1,2 @@
+#include "heightfield/support_sums.glsl"
+#include "lib/sums_begin.glsl"
