@@ -170,11 +170,11 @@ graph::StageSpec place() {
     port.optional = optional;
     spec.ports.push_back(port);
   };
-  for (const char* name : {"body_kind", "body_size", "body_position", "body_orientation", "body_velocity", "body_spin",
-                           "body_friction", "body_mass", "body_path", "body_color"})
+  for (const char* name :
+       {"body_kind", "body_size", "body_position", "body_orientation", "body_velocity", "body_spin", "body_mass", "body_path"})
     add(mpm::body(name, Access::write), false);
   for (const graph::Port& port : mpm::key_frames(Access::write)) add(port, false);
-  for (const char* name : {"body_inertia", "body_position_before", "body_orientation_before"})
+  for (const char* name : {"body_friction", "body_color", "body_inertia", "body_position_before", "body_orientation_before"})
     add(mpm::body(name, Access::write), true);
   for (const char* name : {"facet_points", "facet_body"}) add(heightfield::port(name, Access::write), true);
   return spec;

@@ -20,7 +20,7 @@ graph::StageSpec resistance() {
           .equation = "[H 3.6-3.8]",
           .ports = mpm::joined({ports({"overlap", "density", "owner"}, read),
                                 {optional("ground", read), optional("depth", read), mpm::body("body_velocity", read)},
-                                ports({"displaced_mass", "contact_point", "resistance"}, write),
+                                {optional("displaced_mass", write), port("contact_point", write), port("resistance", write)},
                                 ports({"body_peaks", "body_counts", "body_sums"}, read_write),
                                 cell_choice_ports()}),
           .parameters = {cells_parameter(),

@@ -25,43 +25,42 @@ graph::StageSpec underside() {
   const graph::PortUse depth_again{"underside_depth", read_write, graph::Usage::framebuffer};
   flat_body.push_back(map_again);
   flat_body.push_back(depth_again);
-  return {
-      .name = "heightfield.underside",
-      .doc =
-          "The lowest point of any body over each cell, on its way since the last step, by drawing the bodies from below; "
-          "half-spaces have none",
-      .equation = "[H 4.5]",
-      .ports = mpm::joined(
-          {{mpm::body("body_kind", read), mpm::body("body_size", read), mpm::body("body_position", read),
-            mpm::body("body_orientation", read), before("body_position_before"), before("body_orientation_before")},
-           ports({"facet_points", "facet_body"}, read),
-           {port("underside", read_write), port("owner", read_write), port("underside_map", read_write, graph::Usage::framebuffer),
-            port("underside_depth", read_write, graph::Usage::framebuffer), optional("changed_tiles", read_write)},
-           cell_choice_ports()}),
-      .parameters = {cells_parameter()},
-      .constants = field_constants(),
-      .work = sequence({{graph::Draw{.name = "round bodies",
-                                     .vertex = "heightfield/underside_round.vert",
-                                     .fragment = "heightfield/underside_round.frag",
-                                     .colors = {"underside_map"},
-                                     .depth = "underside_depth",
-                                     .instances = "bodies",
-                                     .vertices = "30",
-                                     .clear = true,
-                                     .uses = round_body},
-                         graph::Draw{.name = "flat bodies",
-                                     .vertex = "heightfield/underside_flat.vert",
-                                     .fragment = "heightfield/underside_flat.frag",
-                                     .colors = {"underside_map"},
-                                     .depth = "underside_depth",
-                                     .instances = "facets",
-                                     .vertices = "24",
-                                     .uses = flat_body}},
-                        over_cells("heightfield/underside.comp", {{"underside_map", read, graph::Usage::sampled},
-                                                                  {"underside_depth", read, graph::Usage::sampled},
-                                                                  {"underside", read_write},
-                                                                  {"owner", read_write},
-                                                                  {"changed_tiles", read_write}})})};
+  return {.name = "heightfield.underside",
+          .doc =
+              "The lowest point of any body over each cell, on its way since the last step, by drawing the bodies from below; "
+              "half-spaces have none",
+          .equation = "[H 4.5]",
+          .ports = mpm::joined(
+              {{mpm::body("body_kind", read), mpm::body("body_size", read), mpm::body("body_position", read),
+                mpm::body("body_orientation", read), before("body_position_before"), before("body_orientation_before")},
+               ports({"facet_points", "facet_body"}, read),
+               {port("underside", read_write), port("owner", read_write), port("underside_map", write, graph::Usage::framebuffer),
+                port("underside_depth", write, graph::Usage::framebuffer), optional("changed_tiles", read_write)},
+               cell_choice_ports()}),
+          .parameters = {cells_parameter()},
+          .constants = field_constants(),
+          .work = sequence({{graph::Draw{.name = "round bodies",
+                                         .vertex = "heightfield/underside_round.vert",
+                                         .fragment = "heightfield/underside_round.frag",
+                                         .colors = {"underside_map"},
+                                         .depth = "underside_depth",
+                                         .instances = "bodies",
+                                         .vertices = "30",
+                                         .clear = true,
+                                         .uses = round_body},
+                             graph::Draw{.name = "flat bodies",
+                                         .vertex = "heightfield/underside_flat.vert",
+                                         .fragment = "heightfield/underside_flat.frag",
+                                         .colors = {"underside_map"},
+                                         .depth = "underside_depth",
+                                         .instances = "facets",
+                                         .vertices = "24",
+                                         .uses = flat_body}},
+                            over_cells("heightfield/underside.comp", {{"underside_map", read, graph::Usage::sampled},
+                                                                      {"underside_depth", read, graph::Usage::sampled},
+                                                                      {"underside", read_write},
+                                                                      {"owner", read_write},
+                                                                      {"changed_tiles", read_write}})})};
 }
 
 }  // namespace firn::stages::heightfield

@@ -62,8 +62,9 @@ TEST_CASE("resistance, its point and the displaced mass are the reference's") {
   INFO("seed " << seed());
   const RandomField f(seed(), 45, 70, 6);
   const auto expected = ref::resistance(f.field, f.overlap, f.underside.owner, f.velocity, 0.5);
-  const Arrays out = run("heightfield.resistance", "{time_constant: 0.5, bind: {ground: ground, depth: depth}}", f,
-                         f.arrays({"ground", "depth", "density", "overlap", "owner", "body_velocity"}));
+  const Arrays out =
+      run("heightfield.resistance", "{time_constant: 0.5, bind: {ground: ground, depth: depth, displaced_mass: displaced_mass}}", f,
+          f.arrays({"ground", "depth", "density", "overlap", "owner", "body_velocity"}));
   std::vector<float> mass;
   std::vector<Vector3d> point, force;
   for (const ref::Resistance& r : expected) {
