@@ -53,6 +53,7 @@ class Compiler {
   }
 
   Plan run() {
+    for (const std::vector<Item>* items : {&pipeline_.setup, &pipeline_.step, &pipeline_.frame}) survey(*items);
     phase(pipeline_.setup, plan_.setup, false);
     phase(pipeline_.step, plan_.step, true);
     phase(pipeline_.frame, plan_.frame, false);
@@ -64,6 +65,39 @@ class Compiler {
   }
 
  private:
+  // Which buffers the pipeline writes and reads at all, wherever: optional ports are bound by that. Whoever only goes on from what an
+  // optional port finds is no reader.
+  void survey(const std::vector<Item>& items) {
+    Diagnostics told_later;
+    for (const Item& item : items) {
+      if (const auto* repeat = std::get_if<RepeatUse>(&item.what)) survey(repeat->stages);
+      const auto* use = std::get_if<StageUse>(&item.what);
+      const StageType* type = use != nullptr && use->enabled ? registry_.find(use->stage) : nullptr;
+      if (type == nullptr) continue;
+      PlannedStage planned;
+      planned.spec = type->spec;
+      planned.parameters = parameters(*use, type->spec, told_later);
+      keep_what_holds(planned);
+      for (const Port& port : planned.spec.ports) {
+        const std::string buffer = bound_name(port, *use).first;
+        if (writes(port.access)) written_.insert(buffer);
+        if (reads(port.access) && (!port.optional || port.access == Access::read)) read_.insert(buffer);
+      }
+    }
+  }
+
+  // The buffer that a port is to have, and where the pipeline says so (nowhere: its own name).
+  static std::pair<std::string, std::optional<Place>> bound_name(const Port& port, const StageUse& use) {
+    for (const Binding& binding : use.bindings)
+      if (binding.port == port.name) return {binding.buffer, binding.place};
+    return {port.name, {}};
+  }
+
+  [[nodiscard]] bool is_wanted(const Port& port, const std::string& buffer) const {
+    return (written_.contains(buffer) && read_.contains(buffer)) ||
+           (writes(port.access) && plan_.environment.provided.contains(buffer));
+  }
+
   void phase(const std::vector<Item>& items, std::vector<Op>& ops, bool in_step) {
     for (const Item& item : items) {
       if (const auto* use = std::get_if<StageUse>(&item.what)) stage(*use, ops, in_step);
@@ -111,7 +145,7 @@ class Compiler {
     planned.every = use.every;
     planned.place = use.place;
     planned.spec = type->spec;
-    planned.parameters = parameters(use, type->spec);
+    planned.parameters = parameters(use, type->spec, diagnostics_);
     keep_what_holds(planned);
     const bool bindings_known = check_bindings(use, type->spec, planned.spec);
     if (!use.enabled || !bindings_known) return;
@@ -122,7 +156,7 @@ class Compiler {
     add_ops(static_cast<int>(plan_.stages.size()) - 1, ops, in_step);
   }
 
-  ParameterValues parameters(const StageUse& use, const StageSpec& spec) {
+  ParameterValues parameters(const StageUse& use, const StageSpec& spec, Diagnostics& diagnostics) {
     ParameterValues values;
     for (const ParameterSpec& parameter : spec.parameters) values[parameter.name] = parameter.initial;
     for (const config::Entry& given : use.parameters) {
@@ -130,11 +164,11 @@ class Compiler {
       if (parameter == spec.parameters.end()) {
         std::vector<std::string> known{"bind", "every", "enable", "as"};
         for (const ParameterSpec& p : spec.parameters) known.insert(known.end() - 4, p.name);
-        diagnostics_.error(given.place,
+        diagnostics.error(given.place,
                            fmt::format("{} has no parameter '{}'{}", spec.name, given.key, config::suggestion(given.key, known)));
         continue;
       }
-      values[given.key] = read_value(given.value, *parameter, diagnostics_);
+      values[given.key] = read_value(given.value, *parameter, diagnostics);
     }
     return values;
   }
@@ -200,18 +234,11 @@ class Compiler {
 
   // The buffer of a port, made where this is the first use of its name. -1: none.
   int bind(const Port& port, const StageUse& use, const PlannedStage& stage) {
-    std::string wanted = port.name;
-    Place place = use.place;
-    bool explicitly = false;
-    for (const Binding& binding : use.bindings)
-      if (binding.port == port.name) {
-        wanted = binding.buffer;
-        place = binding.place;
-        explicitly = true;
-      }
+    const auto [wanted, told_at] = bound_name(port, use);
+    const Place place = told_at.value_or(use.place);
     const auto count = element_count(port.domain, plan_.environment);
     const int existing = plan_.buffer(wanted);
-    if (port.optional && !explicitly && existing < 0) return -1;
+    if (port.optional && !told_at && !is_wanted(port, wanted)) return -1;
     if (!count) {
       unknown_domain(place, use, port.domain);
       return -1;
@@ -286,6 +313,7 @@ class Compiler {
   Plan plan_;
   BufferUses uses_;
   std::set<std::string> unknown_domains_;
+  std::set<std::string> written_, read_;  // names of buffers
 };
 
 }  // namespace
