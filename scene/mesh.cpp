@@ -1,6 +1,5 @@
 #include "scene/mesh.h"
 
-#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <stdexcept>
 
@@ -22,6 +22,16 @@ namespace {
   throw std::runtime_error(fmt::format("{}: {}", file, text));
 }
 
+// Assimp 5.2 reads for ever where a .ply file ends within its header.
+void check_header(const std::string& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string line;
+  for (int lines = 0; lines < 1000 && std::getline(stream, line); ++lines) {
+    if (line.starts_with("end_header")) return;
+  }
+  fail(file, "this .ply file is broken: its header has no end (end_header)");
+}
+
 void check_name(const std::string& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) fail(file, "this file does not exist");
@@ -30,6 +40,25 @@ void check_name(const std::string& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
   if (extension != ".obj" && extension != ".ply" && extension != ".stl")
     fail(file, fmt::format("a mesh must be an .obj, .ply or .stl file, not '{}'", extension));
+  if (extension == ".ply") check_header(file);
+}
+
+// Are there polygons to be cut? Assimp's later steps rely on what is checked here and end the program where it is not so.
+bool check_faces(const aiScene& content, const std::string& file) {
+  bool polygons = false;
+  for (unsigned m = 0; m < content.mNumMeshes; ++m) {
+    const aiMesh& part = *content.mMeshes[m];
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      if (face.mNumIndices == 0) fail(file, fmt::format("face {} of this mesh has no corners; is the file cut off?", f + 1));
+      for (unsigned i = 0; i < face.mNumIndices; ++i)
+        if (face.mIndices[i] >= part.mNumVertices)
+          fail(file,
+               fmt::format("face {} of this mesh names corner {}, but there are {}", f + 1, face.mIndices[i], part.mNumVertices));
+      polygons = polygons || face.mNumIndices > 3;
+    }
+  }
+  return polygons;
 }
 
 using Triangle = std::array<int, 3>;
@@ -81,9 +110,10 @@ MassProperties of_box(const TriangleMesh& mesh) {
 TriangleMesh read_mesh(const std::string& file, double scale) {
   check_name(file);
   Assimp::Importer importer;
-  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const aiScene* content = importer.ReadFile(file, aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_PreTransformVertices);
+  const aiScene* content = importer.ReadFile(file, 0);
   if (content == nullptr) fail(file, fmt::format("this mesh cannot be read: {}", importer.GetErrorString()));
+  if (check_faces(*content, file)) content = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  if (content == nullptr) fail(file, fmt::format("this mesh cannot be cut into triangles: {}", importer.GetErrorString()));
 
   TriangleMesh mesh;
   Joining joining(mesh);

@@ -83,6 +83,9 @@ void add_field(const scene::Scene& scene, graph::Environment& environment) {
       {"min_density", ElementType::float1, material.min_density, "kg/m3", "density below which snow is pressed, not pushed away"});
   environment.constants.push_back(
       {"max_density", ElementType::float1, material.max_density, "kg/m3", "density that snow cannot be pressed beyond"});
+  environment.constants.push_back({"field_color", ElementType::vec3,
+                                   graph::Vector3{material.color.x(), material.color.y(), material.color.z()}, "1",
+                                   "colour of the field's material, sRGB"});
   environment.constants.push_back({"material_slope", ElementType::float1, material.slope, "m/m", "steepest slope that stands"});
 }
 
@@ -128,7 +131,8 @@ void say_what_is_missing(graph::Environment& environment) {
   for (const char* name : {"particles", "nodes", "grid_rows", "grid_blocks", "grid_min", "grid_cell", "grid_nodes", "mass_scale",
                            "momentum_scale", "crowd"})
     environment.missing[name] = no_grid;
-  for (const char* name : {"cells", "tiles", "field_min", "field_cell", "min_density", "max_density", "material_slope"})
+  for (const char* name :
+       {"cells", "tiles", "field_min", "field_cell", "min_density", "max_density", "material_slope", "field_color"})
     environment.missing[name] = "the scene has no 'field'";
 }
 
@@ -208,6 +212,7 @@ graph::Environment environment(const Problem& problem) {
     add_scales(problem, result);
   }
   if (scene.field) add_field(scene, result);
+  result.choices["snow"] = scene.domain && !scene.snow.empty() ? "particles" : "none";
   result.choices["time_step"] = scene.time.dt ? "fixed" : "auto";
   return result;
 }

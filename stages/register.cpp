@@ -34,6 +34,7 @@
 #include "stages/mpm/stress.h"
 #include "stages/mpm/time_step.h"
 #include "stages/render/background.h"
+#include "stages/render/heightfield.h"
 #include "stages/render/particles.h"
 #include "stages/render/shadow_map.h"
 
@@ -75,6 +76,7 @@ graph::Registry all_stages(const std::shared_ptr<const Problem>& problem) {
   registry.add(mpm::stress());
   registry.add(mpm::time_step(), mpm::time_stepping(problem));
   registry.add(render::background());
+  registry.add(render::heightfield());
   registry.add(render::particles(), render::coloring(problem));
   registry.add(render::shadow_map());
   return registry;

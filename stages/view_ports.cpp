@@ -1,5 +1,6 @@
 #include "stages/view_ports.h"
 
+#include "stages/heightfield_ports.h"
 #include "stages/mpm_ports.h"
 
 namespace firn::stages::view {
@@ -46,6 +47,10 @@ std::vector<Port> optional_shapes() {
   for (const char* name : {"body_kind", "body_size", "body_position", "body_orientation"})
     ports.push_back(optional(mpm::body(name, Access::read)));
   return ports;
+}
+
+std::vector<Port> optional_facets() {
+  return {optional(heightfield::port("facet_points", Access::read)), optional(heightfield::port("facet_body", Access::read))};
 }
 
 Port optional(Port port) {

@@ -14,6 +14,8 @@ graph::Port optional_shadow_map();
 
 // body_kind, body_size, body_position, body_orientation, sampled; all may be left out: then there are no bodies.
 std::vector<graph::Port> optional_shapes();
+// facet_points and facet_body, sampled: the triangles of meshes; both may be left out.
+std::vector<graph::Port> optional_facets();
 // A port of `mpm_ports.h`, sampled, that may be left out.
 graph::Port optional(graph::Port port);
 

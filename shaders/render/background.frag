@@ -15,6 +15,7 @@ void main() {
   gl_FragDepth = no_depth;
 #if HAS_BODY_KIND
   bool outline, ignored;
+  choose_bodies(gl_FragCoord.xy);
   Hit hit = first_hit(camera_from, ray, outline);
   if (hit.body >= 0) gl_FragDepth = depth_at(hit.distance * dot(ray, camera_axes()[2]));
   color = seen(ray, hit);

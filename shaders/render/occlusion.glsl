@@ -7,7 +7,7 @@ float sky_left_by_bodies(vec3 x, vec3 normal, int itself) {
     int kind = body_kind_at(b);
     if (kind == 0 || b == itself) continue;
     vec3 size = body_size_at(b).xyz;
-    float reach = kind == 2 ? max(size.x, max(size.y, size.z)) : size.x;
+    float reach = kind == 2 || kind == 4 ? max(size.x, max(size.y, size.z)) : size.x;
     float far_off = length(body_position_at(b) - x) - bounding_radius(kind, size);
     if (far_off > 6.0 * reach) continue;  // less than 1/300
     vec4 toward = toward_solid(b, kind, x);

@@ -1,10 +1,9 @@
 // Rigid bodies for rays and for ambient light. Needs the sampled ports body_kind, body_size, body_position, body_orientation.
 // Kinds and sizes as in lib/bodies.glsl.
 
-const float far_away = 1.0e30;
+#include "lib/turn.glsl"
 
-vec3 turned(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
-vec3 turned_back(vec4 q, vec3 v) { return turned(vec4(-q.xyz, q.w), v); }
+const float far_away = 1.0e30;
 
 struct Hit {
   float distance;  // along the ray; far_away: nothing
@@ -12,7 +11,7 @@ struct Hit {
   vec3 normal;
 };
 
-float bounding_radius(int kind, vec3 size) { return kind == 1 ? size.x : kind == 2 ? length(size) : size.x + size.y; }
+float bounding_radius(int kind, vec3 size) { return kind == 1 ? size.x : kind == 3 ? size.x + size.y : length(size); }
 
 void hit_ball(vec3 from, vec3 ray, vec3 center, float radius, inout float nearest, inout vec3 normal) {
   vec3 to_center = center - from;
@@ -52,7 +51,7 @@ void hit_capsule(vec3 from, vec3 ray, float radius, float half_length, inout flo
   hit_ball(from, ray, vec3(0.0, -half_length, 0.0), radius, nearest, normal);
 }
 
-// A body that is not a half-space: nearer than hit.distance, it takes its place.
+// A body that is not a half-space: nearer than hit.distance, it takes its place. Meshes are drawn as triangles instead (meshes.vert).
 void hit_solid(int b, int kind, vec3 from, vec3 ray, inout Hit hit) {
   vec4 q = body_orientation_at(b);
   vec3 size = body_size_at(b).xyz;
@@ -65,13 +64,13 @@ void hit_solid(int b, int kind, vec3 from, vec3 ray, inout Hit hit) {
   if (nearest < hit.distance) hit = Hit(nearest, b, turned(q, normal));
 }
 
-// Distance to the surface of a body that is not a half-space, from outside, and the direction there in xyz.
+// Distance to the surface of a body that is not a half-space, from outside, and the direction there in xyz; of a mesh, to its box.
 vec4 toward_solid(int b, int kind, vec3 x) {
   vec4 q = body_orientation_at(b);
   vec3 size = body_size_at(b).xyz;
   vec3 local = turned_back(q, x - body_position_at(b));
-  vec3 core = kind == 2 ? clamp(local, -size, size) : kind == 3 ? vec3(0.0, clamp(local.y, -size.y, size.y), 0.0) : vec3(0.0);
+  vec3 core = kind == 2 || kind == 4 ? clamp(local, -size, size) : kind == 3 ? vec3(0.0, clamp(local.y, -size.y, size.y), 0.0) : vec3(0.0);
   vec3 there = core - local;
   float distance = length(there);
-  return vec4(distance > 0.0 ? turned(q, there / distance) : vec3(0.0), distance - (kind == 2 ? 0.0 : size.x));
+  return vec4(distance > 0.0 ? turned(q, there / distance) : vec3(0.0), distance - (kind == 2 || kind == 4 ? 0.0 : size.x));
 }

@@ -1,5 +1,20 @@
 // What a ray from the camera sees of the rigid bodies. Needs camera, shadow, light, sunlight, shapes and occlusion, and the sampled
-// ports body_color and body_bound (body_bounds.comp).
+// ports body_color, body_bound (body_bounds.comp) and tile_bodies (body_tiles.comp). A shader calls choose_bodies() first.
+#include "render/tiles.glsl"
+
+// Those that may be seen in a pixel: all, where the tile has no list or it is too short.
+int chosen_start, chosen_count;
+bool chosen_all;
+
+void choose_bodies(vec2 pixel) {
+  ivec2 at = ivec2(pixel) / tile_pixels;
+  int tile = at.y * tiles_across() + at.x;
+  chosen_start = tile * tile_list + 1;
+  chosen_count = tile < tiles_with_lists() ? int(tile_bodies_at(chosen_start - 1)) : tile_list;
+  chosen_all = chosen_count >= tile_list;
+  if (chosen_all) chosen_count = int(bodies_count);
+}
+int chosen_body(int k) { return chosen_all ? k : int(tile_bodies_at(chosen_start + k)); }
 
 const float ground_slope = 0.2;  // half-spaces whose normal is steeper than this are walls
 const float glass_tint = 0.07;
@@ -17,7 +32,8 @@ float half_space_distance(vec3 from, vec3 ray, vec4 plane) {
 Hit first_hit(vec3 from, vec3 ray, out bool outline) {
   Hit hit = Hit(far_away, -1, vec3(0.0));
   outline = false;
-  for (int b = 0; b < int(bodies_count); ++b) {
+  for (int k = 0; k < chosen_count; ++k) {
+    int b = chosen_body(k);
     int kind = body_kind_at(b);
     vec4 bound = body_bound_at(b);
     if (kind == 0) {
@@ -54,7 +70,7 @@ float ruler_lines(vec2 place, float pixel) {
 
 // A mark on round bodies that shows how they turn.
 float stripe(int kind, vec3 local, float radius) {
-  if (kind == 2) return 0.0;
+  if (kind == 2 || kind == 4) return 0.0;
   float across = min(abs(local.x), abs(local.z)) / radius;
   return 0.22 * (1.0 - smoothstep(0.10, 0.13, across));
 }
@@ -75,7 +91,8 @@ vec3 surface_color(vec3 x, vec3 ray, Hit hit) {
   float facing = max(dot(hit.normal, -sun_direction), 0.0);
   float texel = shadow_texel();  // off the surface by what the filter reaches, or it would shade itself
   float sun = facing > 0.0 ? facing * sunlit(x + 3.0 * texel * hit.normal, texel, 0.0) : 0.0;
-  float open = sky_left_by_bodies(x, hit.normal, hit.body);
+  // Many bodies are small ones: their shade on each other is not worth its time.
+  float open = bodies_count > 64u ? 1.0 : sky_left_by_bodies(x, hit.normal, hit.body);
   if (kind != 0) open *= 0.75 + 0.25 * smoothstep(-1.0, 0.4, hit.normal.y);  // the ground is near and darker than the sky
   return albedo * (sun * sun_color + open * sky_light(hit.normal));
 }
@@ -83,14 +100,17 @@ vec3 surface_color(vec3 x, vec3 ray, Hit hit) {
 #if WALLS_GLASS
 // Where walls meet, they end.
 bool behind_another(int wall, vec3 x) {
-  for (int b = 0; b < int(bodies_count); ++b)
+  for (int k = 0; k < chosen_count; ++k) {
+    int b = chosen_body(k);
     if (b != wall && body_kind_at(b) == 0 && dot(body_bound_at(b), vec4(x, -1.0)) < 0.0) return true;
+  }
   return false;
 }
 
 // Walls and ceilings as panes with a faint metre grid, as far as the scene's box reaches.
 vec3 through_panes(vec3 color, vec3 ray, float nearest) {
-  for (int b = 0; b < int(bodies_count); ++b) {
+  for (int k = 0; k < chosen_count; ++k) {
+    int b = chosen_body(k);
     if (body_kind_at(b) != 0) continue;
     vec4 plane = body_bound_at(b);
     if (is_ground(plane.xyz)) continue;

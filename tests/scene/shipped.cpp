@@ -1,6 +1,8 @@
 // The scenes that come with Firn.
 
+#include "scene/field.h"
 #include "scene/materials.h"
+#include "scene/mesh.h"
 #include "scene/sampling.h"
 #include "tests/scene/support.h"
 
@@ -39,9 +41,11 @@ TEST_CASE("every shipped scene reads without errors or warnings, says what it is
     CHECK(scene.name == entry.path().stem().string());
     CHECK_FALSE(scene.doc.empty());
     CHECK(scene::sample(scene).position.size() <= scene::estimate_particles(scene));
+    if (scene.field) CHECK(scene::sample_field(scene).depth.size() == 256 * 256);
+    for (const scene::TriangleMesh& mesh : scene::body_meshes(scene)) CHECK((mesh.triangles.empty() || scene::is_closed(mesh)));
     ++count;
   }
-  CHECK(count >= 4);
+  CHECK(count >= 10);
 }
 
 TEST_CASE("the explicit steps of the shipped particle scenes leave room for hardening") {

@@ -1,6 +1,7 @@
 // What must be seen in pictures: what is where, what hides what, and where shadows fall.
 
 #include <algorithm>
+#include <random>
 
 #include "config/diagnostics.h"
 #include "tests/catch.h"
@@ -187,4 +188,55 @@ TEST_CASE("the depth is 1 - near / distance along the camera's axis, 1 where the
   CHECK(depth.at(45 * 160 + 80) == Approx(1.0 - 0.02 / 0.5).epsilon(1e-5));
   CHECK(depth.at(45 * 160 + 70) == Approx(1.0 - 0.02 / 0.5).epsilon(1e-5));  // not the distance along the ray
   CHECK(depth.at(0) == 1.0f);
+}
+
+TEST_CASE("of several hundred bodies every pixel shows the nearest on its ray") {
+  INFO("seed " << seed());
+  std::mt19937_64 engine(seed());
+  const auto random = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); };
+  struct Ball {
+    Vector3d place;
+    double radius;
+    bool red;
+  };
+  std::vector<Ball> balls;
+  for (int i = 0; i < 200; ++i)
+    balls.push_back({{random(-0.6, 0.6), random(0.1, 0.9), random(-0.9, 0)}, random(0.01, 0.05), i % 2 == 0});
+  for (int i = 0; i < 90; ++i)
+    balls.push_back({{0.02, 0.5, -0.9 + 0.01 * i}, 0.03, i % 3 == 0});  // more in a row than a list holds
+  std::string bodies;
+  for (const Ball& ball : balls)
+    bodies += "{sphere: {radius: " + std::to_string(ball.radius) + "}, position: [" + std::to_string(ball.place.x()) + ", " +
+              std::to_string(ball.place.y()) + ", " + std::to_string(ball.place.z()) +
+              "], color: " + (ball.red ? "[0.9, 0.05, 0.05]" : "[0.05, 0.9, 0.05]") + "}, ";
+  Shot shot(bodies_only("[" + bodies.substr(0, bodies.size() - 2) + "]"), "[render.background]", "320x180");
+  const Picture picture = shot.frame();
+  const Vector3d camera(0, 0.5, 0.6);
+  const auto nearest = [&](int x, int y) {  // index of the ball; -1: none
+    const double slope = std::tan(30 * M_PI / 180) / 90;
+    const Vector3d ray = Vector3d((x + 0.5 - 160) * slope, (y + 0.5 - 90) * slope, -1).normalized();
+    int found = -1;
+    double distance = 1e30;
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+      const Vector3d to_center = balls[i].place - camera;
+      const double along = to_center.dot(ray), room = balls[i].radius * balls[i].radius - (to_center - along * ray).squaredNorm();
+      if (room < 0 || along - std::sqrt(room) >= distance) continue;
+      distance = along - std::sqrt(room);
+      found = static_cast<int>(i);
+    }
+    return found;
+  };
+  int checked = 0, wrong = 0;
+  for (int y = 1; y < 179; ++y)
+    for (int x = 1; x < 319; ++x) {
+      const int ball = nearest(x, y);
+      if (nearest(x - 1, y) != ball || nearest(x + 1, y) != ball || nearest(x, y - 1) != ball || nearest(x, y + 1) != ball)
+        continue;
+      const Pixel pixel = picture.at(x, y);
+      const bool right = ball < 0 ? is_sky(pixel) : balls[static_cast<std::size_t>(ball)].red ? is_red(pixel) : is_green(pixel);
+      ++checked;
+      wrong += right ? 0 : 1;
+    }
+  CHECK(checked > 20000);
+  CHECK(wrong == 0);
 }

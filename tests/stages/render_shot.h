@@ -52,11 +52,14 @@ inline constexpr const char* draw_all = "[render.shadow_map, render.background, 
 class Shot {
  public:
   Shot(const SceneText& scene, const std::string& stages = draw_all, const std::string& image = "160x90",
+       const std::string& output = "")
+      : Shot(scene.text(), "[mpm.seed, bodies.place]", stages, image, output) {}
+
+  Shot(const std::string& scene, const std::string& setup, const std::string& stages, const std::string& image,
        const std::string& output = "") {
     app::Inputs inputs;
-    inputs.scene = folder_.write("scene.yaml", scene.text()).string();
-    inputs.pipeline =
-        folder_.write("pipeline.yaml", "firn: 1\nname: draw\nsetup: [mpm.seed, bodies.place]\nframe: " + stages + "\n").string();
+    inputs.scene = folder_.write("scene.yaml", scene).string();
+    inputs.pipeline = folder_.write("pipeline.yaml", "firn: 1\nname: draw\nsetup: " + setup + "\nframe: " + stages + "\n").string();
     inputs.image = image;
     loaded_ = app::load(inputs, output);
     execution_ =

@@ -1,0 +1,9 @@
+#pragma once
+
+#include "graph/spec.h"
+
+namespace firn::stages::render {
+
+graph::StageSpec heightfield();
+
+}  // namespace firn::stages::render
