@@ -70,6 +70,8 @@ int main(int argc, char** argv) {
 
   firn::app::Action action;
   firn::app::add_run(program, action);
+  firn::app::add_bench(program, action);
+  firn::app::add_profile(program, action);
   firn::app::add_check(program, action);
   firn::app::add_list(program, action);
   firn::app::add_doctor(program, action);

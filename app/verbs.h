@@ -21,9 +21,11 @@ enum Status : int {
 using Action = std::function<int()>;
 
 // Each adds its verb to the program; when it is called, `action` is set.
+void add_bench(CLI::App& program, Action& action);
 void add_check(CLI::App& program, Action& action);
 void add_doctor(CLI::App& program, Action& action);
 void add_list(CLI::App& program, Action& action);
+void add_profile(CLI::App& program, Action& action);
 void add_run(CLI::App& program, Action& action);
 void add_test(CLI::App& program, Action& action);
 

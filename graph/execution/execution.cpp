@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
+#include <map>
 
 #include "graph/execution/kernels.h"
 
@@ -83,6 +85,8 @@ struct Execution::Parts {
   gpu::Buffer clock_block;
   gpu::Buffer faults;  // per stage and kind: count, 0xffffffff - first step
   std::unique_ptr<gpu::TimerRing> timers;
+  std::vector<PassTime> clock_times;
+  std::map<const graph::Repeat*, RepeatTurns> repeats;
 
   Parts(gpu::Device& device_, Plan plan_, const graph::Registry& registry, Options options_)
       : device(device_), plan(std::move(plan_)), options(std::move(options_)), memory(plan, device) {
@@ -102,7 +106,7 @@ struct Execution::Parts {
       }
       host.push_back(has_host_work ? registry.find(stage.spec.name)->host(stage.parameters) : nullptr);
     }
-    if (options.profile) timers = std::make_unique<gpu::TimerRing>(4096);
+    if (options.profile && !device.info().software) timers = std::make_unique<gpu::TimerRing>(4096);
   }
 
   void upload_clock() {
@@ -120,6 +124,7 @@ struct Execution::Parts {
       } else if (const auto* repeat = std::get_if<graph::Repeat>(&op.what)) {
         for (std::int64_t i = 0; i < repeat->max; ++i) {
           this->run(repeat->body, turn);
+          ++repeats[repeat].turns;
           if (repeat->until && reached(*repeat->until)) break;
         }
       }
@@ -202,9 +207,20 @@ void Execution::Parts::work(const graph::Run& run, std::uint64_t turn) {
     if (clock.dt != before) upload_clock();
     return;
   }
+  // A software renderer's timestamps say nothing of draws, which it does later, nor of what comes between: there the processor's clock.
+  const bool by_clock = options.profile && device.info().software;
+  std::chrono::steady_clock::time_point start;
+  if (by_clock) {
+    device.finish();
+    start = std::chrono::steady_clock::now();
+  }
   if (timers) timers->begin(run.stage * 64 + run.work);
   run_kernel(plan, run.stage, run.work, kernels[s][static_cast<std::size_t>(run.work)], memory, parameters[s], clock_block, faults);
   if (timers) timers->end();
+  if (by_clock) {
+    device.finish();
+    clock_times.push_back({run.stage, run.work, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+  }
   if (options.barriers_all) gpu::memory_barrier_all();
 }
 
@@ -280,8 +296,15 @@ void Execution::write(const std::string& name, std::span<const std::byte> data) 
   parts_->memory.buffers[static_cast<std::size_t>(index)].upload(0, data);
 }
 
+std::vector<RepeatTurns> Execution::turns() const {
+  std::vector<RepeatTurns> result;
+  for (const auto& [repeat, turns] : parts_->repeats) result.push_back(turns);
+  return result;
+}
+
 std::vector<PassTime> Execution::take_times() {
   std::vector<PassTime> times;
+  std::swap(times, parts_->clock_times);
   if (!parts_->timers) return times;
   for (const gpu::TimerRing::Sample& sample : parts_->timers->collect(true))
     times.push_back({sample.tag / 64, sample.tag % 64, sample.seconds});

@@ -33,6 +33,11 @@ struct PassTime {
   double seconds = 0;
 };
 
+// How many turns a repeat has taken so far.
+struct RepeatTurns {
+  std::uint64_t turns = 0;
+};
+
 // What the device lacks for a plan, one sentence each; empty: nothing.
 std::vector<std::string> shortcomings(const graph::Plan& plan, const gpu::Limits& limits);
 
@@ -63,6 +68,9 @@ class Execution {
   void write(const std::string& buffer, std::span<const std::byte> data);
 
   std::vector<PassTime> take_times();
+
+  // Of every repeat that has run.
+  [[nodiscard]] std::vector<RepeatTurns> turns() const;
 
  private:
   struct Parts;

@@ -1,0 +1,20 @@
+#pragma once
+
+// Summaries of repeated measurements.
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace firn::app {
+
+// The value below which a share q of the values lies, by the nearest of them; 0 of none.
+inline double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return 0;
+  const auto at = static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1) + 0.5);
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+inline double median(const std::vector<double>& values) { return quantile(values, 0.5); }
+
+}  // namespace firn::app
