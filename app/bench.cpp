@@ -7,6 +7,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "app/choice.h"
 #include "app/load.h"
 #include "app/statistics.h"
 #include "app/verbs.h"
@@ -188,7 +189,7 @@ void add_bench(CLI::App& program, Action& action) {
   CLI::App* verb = program.add_subcommand("bench", "The standard measurements: heightfield, step, barriers");
   verb->add_option("NAME", options->name, "One of them (default: all)");
   verb->add_option("--sizes", options->sizes, "small: for machines without a GPU; full")
-      ->check(CLI::IsMember({"small", "full"}))
+      ->check(one_of({"small", "full"}))
       ->capture_default_str();
   verb->add_option("--runs", options->runs, "Runs whose median is told")->check(CLI::Range(1, 1000))->capture_default_str();
   verb->add_option("--device", options->device, "As for run")->capture_default_str();

@@ -1,22 +1,16 @@
 #pragma once
 
-// Buffers as .npy files.
+// Buffers that a run writes to .npy files at its end (shapes: app/arrays.h).
 
 #include <string>
 #include <vector>
 
-#include "graph/execution/execution.h"
+#include "app/named_files.h"
+#include "graph/plan.h"
 
 namespace firn::app {
 
-struct Dump {
-  std::string buffer, file;
-};
-
-// Reads "BUFFER=FILE.npy" words. Throws config::InputError for malformed ones and for buffers the plan does not have.
-std::vector<Dump> parse_dumps(const std::vector<std::string>& words, const graph::Plan& plan);
-
-// Shape: that of the domain (particles: N; nodes: nz, ny, nx), then the components (vec3: 3; mat3: 3, 3), without padding.
-void write_dump(const execution::Execution& execution, const Dump& dump);
+// Names must be buffers of the plan, and folders must be there.
+void check_dumps(const std::vector<NamedFile>& dumps, const graph::Plan& plan, config::Diagnostics& diagnostics);
 
 }  // namespace firn::app

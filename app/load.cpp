@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "app/choice.h"
+#include "app/shipped.h"
 #include "config/nearest.h"
 
 namespace firn::app {
@@ -25,6 +27,33 @@ stages::Image read_image_size(const std::string& text, config::Diagnostics& diag
   return image;
 }
 
+std::vector<std::pair<std::string, config::Node>> read_replacements(const std::vector<std::string>& words,
+                                                                    config::Diagnostics& diagnostics) {
+  std::vector<std::pair<std::string, config::Node>> replacements;
+  for (const std::string& word : words) {
+    const config::Place place{"--replace " + word, 0, 0};
+    const std::size_t sign = word.find('=');
+    config::Node list;
+    list.kind = config::Node::Kind::sequence;
+    list.place = place;
+    bool complete = sign != std::string::npos && sign > 0;
+    for (std::size_t begin = sign; complete && begin != std::string::npos;) {
+      const std::size_t end = word.find(',', begin + 1);
+      config::Node& stage = list.items.emplace_back();
+      stage.kind = config::Node::Kind::scalar;
+      stage.place = place;
+      stage.scalar = word.substr(begin + 1, end == std::string::npos ? end : end - begin - 1);
+      complete = !stage.scalar.empty();
+      begin = end;
+    }
+    if (complete)
+      replacements.emplace_back(word.substr(0, sign), std::move(list));
+    else
+      diagnostics.error(place, "expected GROUP=STAGE,STAGE, such as displace=heightfield.distance_transform,./push.comp");
+  }
+  return replacements;
+}
+
 // Memory is told before it is taken: particles on the host while they are sampled, and their state and the grid's on the device.
 void check_memory(const scene::Scene& scene, config::Diagnostics& diagnostics) {
   constexpr double per_particle = 64 + 64 + 400, per_node = 80;  // bytes: sampling, scene and upload, the pipelines' buffers
@@ -41,7 +70,8 @@ void check_memory(const scene::Scene& scene, config::Diagnostics& diagnostics) {
                   nodes, particles, needed / gib, there / gib));
 }
 
-// A scene that any pipeline can be checked against when its own is wrong, so that the errors of both are told at once.
+}  // namespace
+
 scene::Scene nominal_scene() {
   scene::Scene scene;
   scene.domain = scene::Domain{};
@@ -53,7 +83,37 @@ scene::Scene nominal_scene() {
   return scene;
 }
 
-}  // namespace
+std::vector<config::Override> read_overrides(const std::vector<std::string>& words, config::Diagnostics& diagnostics) {
+  std::vector<config::Override> changes;
+  for (const std::string& text : words) {
+    // One that cannot be read is not applied: its value would only bring errors of its own.
+    config::Diagnostics of_set;
+    config::Override change = config::parse_override(text, of_set);
+    if (change.path == std::vector<std::string>{"scene"})
+      of_set.error(change.place, "write scene.<key>=<value> for a part of the scene, or --scene FILE for another one");
+    if (!of_set.has_errors()) changes.push_back(std::move(change));
+    diagnostics.append(of_set);
+  }
+  return changes;
+}
+
+std::shared_ptr<const stages::Problem> load_problem(const std::string& file, const std::vector<config::Override>& changes,
+                                                    stages::Image image, const std::string& output, config::Node& node,
+                                                    config::Diagnostics& diagnostics) {
+  config::Diagnostics of_scene;
+  std::shared_ptr<const stages::Problem> problem;
+  node = config::load(file, of_scene);
+  if (!of_scene.has_errors()) {
+    for (const config::Override& change : changes)
+      if (change.path.front() == "scene")
+        config::apply_override(node, {change.path.begin() + 1, change.path.end()}, change.value, change.place, of_scene);
+    scene::Scene scene = scene::read_scene(node, of_scene);
+    if (!of_scene.has_errors()) check_memory(scene, of_scene);
+    if (!of_scene.has_errors()) problem = stages::make_problem(std::move(scene), image, output);
+  }
+  diagnostics.append(of_scene);
+  return problem;
+}
 
 void add_inputs(CLI::App& verb, Inputs& inputs) {
   verb.add_option("PIPELINE", inputs.pipeline, "Pipeline file (YAML), or the name of one that comes with Firn")->required();
@@ -63,6 +123,14 @@ void add_inputs(CLI::App& verb, Inputs& inputs) {
                   "(scene.gravity=[0,-1.62,0]); V is YAML")
       ->allow_extra_args(false);
   verb.add_option("--disable", inputs.disable, "Leave a stage out")->allow_extra_args(false);
+  verb.add_flag("!--no-alias", inputs.share_memory, "Give every scratch buffer memory of its own");
+  verb.add_option("--repeats", inputs.repeats,
+                  "Who finds that a repeat has reached its end: device; host, which reads back after every turn; auto: host on "
+                  "software renderers, else device")
+      ->check(one_of({"auto", "host", "device"}))
+      ->capture_default_str();
+  verb.add_option("--replace", inputs.replace, "GROUP=STAGE,STAGE: other stages for a group; those that are files by their paths")
+      ->allow_extra_args(false);
   verb.add_option("--image", inputs.image, "Size of pictures, WIDTHxHEIGHT")->capture_default_str();
 }
 
@@ -99,39 +167,26 @@ Loaded load(const Inputs& inputs, const std::string& output) {
   Loaded loaded;
   config::Diagnostics& diagnostics = loaded.diagnostics;
   graph::Edits edits;
-  for (const std::string& text : inputs.set) {
-    // One that cannot be read is not applied: its value would only bring errors of its own.
-    config::Diagnostics of_set;
-    config::Override change = config::parse_override(text, of_set);
-    if (change.path == std::vector<std::string>{"scene"})
-      of_set.error(change.place, "write scene.<key>=<value> for a part of the scene, or --scene FILE for another one");
-    if (!of_set.has_errors()) edits.set.push_back(std::move(change));
-    diagnostics.append(of_set);
-  }
+  edits.set = read_overrides(inputs.set, diagnostics);
   edits.disable = inputs.disable;
+  edits.replace = read_replacements(inputs.replace, diagnostics);
   const stages::Image image = read_image_size(inputs.image, diagnostics);
 
   loaded.pipeline_file = find_input(inputs.pipeline, "pipelines");
-  loaded.pipeline = graph::load_pipeline(loaded.pipeline_file, edits, diagnostics);
+  if (fs::exists(loaded.pipeline_file))
+    loaded.pipeline = graph::load_pipeline(loaded.pipeline_file, edits, diagnostics);
+  else
+    diagnostics.error({inputs.pipeline, 0, 0}, "there is no such file" + suggest_file(inputs.pipeline, shipped_pipelines()));
   loaded.scene_file = inputs.scene.empty() ? loaded.pipeline.scene : find_input(inputs.scene, "pipelines/scenes");
 
   std::shared_ptr<const stages::Problem> problem;
   if (!loaded.scene_file.empty()) {
     if (inputs.scene.empty() && !fs::exists(loaded.scene_file)) {
       diagnostics.error(loaded.pipeline.scene_place, fmt::format("no such scene file: '{}'", loaded.scene_file));
+    } else if (!fs::exists(loaded.scene_file)) {
+      diagnostics.error({inputs.scene, 0, 0}, "there is no such file" + suggest_file(inputs.scene, shipped_scenes()));
     } else {
-      config::Diagnostics of_scene;
-      loaded.scene_node = config::load(loaded.scene_file, of_scene);
-      if (!of_scene.has_errors()) {
-        for (const config::Override& change : edits.set)
-          if (change.path.front() == "scene")
-            config::apply_override(loaded.scene_node, {change.path.begin() + 1, change.path.end()}, change.value, change.place,
-                                   of_scene);
-        scene::Scene scene = scene::read_scene(loaded.scene_node, of_scene);
-        if (!of_scene.has_errors()) check_memory(scene, of_scene);
-        if (!of_scene.has_errors()) problem = stages::make_problem(std::move(scene), image, output);
-      }
-      diagnostics.append(of_scene);
+      problem = load_problem(loaded.scene_file, edits.set, image, output, loaded.scene_node, diagnostics);
     }
   } else if (!loaded.pipeline.file.empty() && !diagnostics.has_errors()) {
     diagnostics.error({loaded.pipeline_file, 0, 0},
@@ -140,10 +195,20 @@ Loaded load(const Inputs& inputs, const std::string& output) {
   const bool nominal = problem == nullptr;
   if (nominal) problem = stages::make_problem(nominal_scene(), image, "");
   loaded.registry = stages::all_stages(problem);
-  loaded.plan = graph::compile(loaded.pipeline, loaded.registry, stages::environment(*problem), diagnostics);
+  graph::Environment environment = stages::environment(*problem);
+  environment.provided.insert(inputs.keep.begin(), inputs.keep.end());
+  loaded.plan = graph::compile(loaded.pipeline, loaded.registry, environment, diagnostics,
+                               {.share_memory = inputs.share_memory, .decide_on_device = inputs.repeats == "device"});
   loaded.problem = problem;
   config::throw_if_errors(diagnostics);
   return loaded;
+}
+
+void plan_for(Loaded& loaded, const Inputs& inputs, bool software) {
+  if (inputs.repeats != "auto" || software) return;
+  config::Diagnostics told_before;
+  loaded.plan = graph::compile(loaded.pipeline, loaded.registry, graph::Environment(loaded.plan.environment), told_before,
+                               {.share_memory = inputs.share_memory, .decide_on_device = true});
 }
 
 }  // namespace firn::app

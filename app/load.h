@@ -16,8 +16,11 @@ namespace firn::app {
 
 struct Inputs {
   std::string pipeline, scene;  // files; an empty scene is the pipeline's own
-  std::vector<std::string> set, disable;
+  std::vector<std::string> set, disable, replace;
   std::string image = "1280x720";
+  std::vector<std::string> keep;  // buffers whose contents are wanted after a step, as dumps are
+  bool share_memory = true;
+  std::string repeats = "auto";  // who finds their ends: host, device; auto: see plan_for()
 };
 // The options of `inputs`, the same for every verb that takes a pipeline.
 void add_inputs(CLI::App& verb, Inputs& inputs);
@@ -34,6 +37,20 @@ struct Loaded {
 
 // Throws config::InputError with everything that is wrong with pipeline and scene. `output`: folder for what stages write.
 Loaded load(const Inputs& inputs, const std::string& output);
+
+// Plans again where the device calls for another plan than load() made: software renderers read back the end of a repeat in no
+// time, others are not to be waited for.
+void plan_for(Loaded& loaded, const Inputs& inputs, bool software);
+
+// The parts of load() that other verbs need by themselves; errors go to `diagnostics`.
+std::vector<config::Override> read_overrides(const std::vector<std::string>& words, config::Diagnostics& diagnostics);  // --set
+// The scene of a file with those of `changes` that begin with "scene"; nothing where anything is wrong with it.
+std::shared_ptr<const stages::Problem> load_problem(const std::string& file, const std::vector<config::Override>& changes,
+                                                    stages::Image image, const std::string& output, config::Node& node,
+                                                    config::Diagnostics& diagnostics);
+// A scene that any pipeline can be checked against when its own is wrong, so that the errors of both are told at once. Nothing in
+// it but that every domain and constant has a value.
+scene::Scene nominal_scene();
 
 // `name` as given, else below the folders of pipelines that come with Firn, with or without .yaml. Unchanged where nothing is
 // found.

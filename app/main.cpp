@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <new>
 
+#include "app/usage_errors.h"
 #include "app/verbs.h"
 #include "app/version.h"
 #include "config/diagnostics.h"
-#include "config/nearest.h"
 #include "gpu/device.h"
 #include "gpu/program.h"
 #include "graph/execution/execution.h"
@@ -73,22 +73,20 @@ int main(int argc, char** argv) {
   firn::app::add_bench(program, action);
   firn::app::add_profile(program, action);
   firn::app::add_check(program, action);
+  firn::app::add_explain(program, action);
+  firn::app::add_inspect(program, action);
   firn::app::add_list(program, action);
+  firn::app::add_try(program, action);
+  firn::app::add_completion(program, action);
   firn::app::add_doctor(program, action);
+  firn::app::add_schema(program, action);
   firn::app::add_test(program, action);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& success) {
     return program.exit(success);
   } catch (const CLI::ParseError& error) {
-    if (const std::vector<std::string> rest = program.remaining();
-        program.get_subcommands().empty() && !rest.empty() && !rest.front().starts_with('-')) {
-      std::vector<std::string> verbs;
-      for (const CLI::App* verb : program.get_subcommands([](const CLI::App*) { return true; })) verbs.push_back(verb->get_name());
-      fmt::print(stderr, "no verb '{}'{}\n", rest.front(), firn::config::suggestion(rest.front(), verbs));
-    } else {
-      program.exit(error);
-    }
+    fmt::print(stderr, "{}", firn::app::usage_error(program, error));
     return Status::bad_input;
   }
   set_up_log(verbose, quiet);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "app/choice.h"
 #include "app/load.h"
 #include "app/simulation.h"
 #include "app/statistics.h"
@@ -126,9 +127,9 @@ void add_profile(CLI::App& program, Action& action) {
   const auto options = std::make_shared<ProfileOptions>();
   CLI::App* verb = program.add_subcommand("profile", "Time every pass of a step");
   add_inputs(*verb, options->inputs);
-  verb->add_option("--steps", options->steps, "Steps to time")->check(CLI::PositiveNumber)->capture_default_str();
-  verb->add_option("--warm-up", options->warm_up, "Steps before them")->check(CLI::NonNegativeNumber)->capture_default_str();
-  verb->add_option("--format", options->format, "table or json")->check(CLI::IsMember({"table", "json"}))->capture_default_str();
+  verb->add_option("--steps", options->steps, "Steps to time")->check(at_least(1))->capture_default_str();
+  verb->add_option("--warm-up", options->warm_up, "Steps before them")->check(at_least(0))->capture_default_str();
+  verb->add_option("--format", options->format, "table or json")->check(one_of({"table", "json"}))->capture_default_str();
   verb->add_option("--device", options->device, "As for run")->capture_default_str();
   verb->callback([&action, options] { action = [options] { return profile(*options); }; });
 }

@@ -24,31 +24,35 @@ Progress::~Progress() { finish(); }
 
 void Progress::update(double done, std::uint64_t frame, std::uint64_t step) {
   if (quiet_) return;
+  newest_ = {done, frame, step, false};
   const auto now = Clock::now();
   if (now - last_ < (terminal_ ? std::chrono::milliseconds(100) : std::chrono::milliseconds(5000))) return;
   last_ = now;
   print(done, frame, step);
+  newest_.shown = true;
 }
 
 void Progress::print(double done, std::uint64_t frame, std::uint64_t step) {
   const double share = total_ > 0 ? std::clamp(done / total_, 0.0, 1.0) : 1.0;
   const double passed = std::chrono::duration<double>(Clock::now() - start_).count();
   const double rate = passed > 0 ? static_cast<double>(step) / passed : 0;
-  const std::string left = share > 0 && passed > 2 ? clock_text(passed * (1 - share) / share) : "?";
+  const std::string left = share >= 1 ? "0:00" : share > 0 && passed > 2 ? clock_text(passed * (1 - share) / share) : "?";
   if (terminal_) {
     constexpr int width = 30;
     const auto filled = static_cast<std::size_t>(share * width);
     fmt::print(stderr, "\r[{}{}] {:3.0f} %  frame {}  step {}  {:.0f} steps/s  {} left \033[K", std::string(filled, '='),
                std::string(width - filled, ' '), 100 * share, frame, step, rate, left);
-    open_line_ = true;
+    line_is_open_ = true;
   } else {
     fmt::print(stderr, "{:3.0f} %  frame {}  step {}  {:.0f} steps/s  {} left\n", 100 * share, frame, step, rate, left);
   }
 }
 
 void Progress::finish() {
-  if (open_line_) fmt::print(stderr, "\r\033[K");
-  open_line_ = false;
+  if (!newest_.shown) print(newest_.done, newest_.frame, newest_.step);
+  newest_.shown = true;
+  if (line_is_open_) fmt::print(stderr, "\n");
+  line_is_open_ = false;
 }
 
 }  // namespace firn::app

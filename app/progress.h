@@ -16,6 +16,7 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
 
   void update(double done, std::uint64_t frame, std::uint64_t step);
+  // Ends the display with what the last update() said, whenever that was shown.
   void finish();
 
  private:
@@ -24,7 +25,13 @@ class Progress {
 
   double total_;
   bool quiet_, terminal_;
-  bool open_line_ = false;
+  struct Update {
+    double done = 0;
+    std::uint64_t frame = 0, step = 0;
+    bool shown = true;
+  };
+  Update newest_;
+  bool line_is_open_ = false;
   Clock::time_point start_ = Clock::now(), last_ = start_ - std::chrono::hours(1);
 };
 

@@ -6,6 +6,8 @@
 #include <ctime>
 #include <filesystem>
 
+#include "app/arrays.h"
+#include "app/choice.h"
 #include "app/command_line.h"
 #include "app/dump.h"
 #include "app/load.h"
@@ -69,11 +71,17 @@ int run(const RunOptions& options) {
   facts.command = command_line();
   facts.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   const std::string output = options.output.empty() ? default_output(options) : options.output;
-  const Loaded loaded = load(options.inputs, output);
+  config::Diagnostics of_dumps;
+  const std::vector<NamedFile> dumps = read_named_files(options.dumps, "--dump", "BUFFER", of_dumps);
+  Inputs inputs = options.inputs;
+  for (const NamedFile& dump : dumps) inputs.keep.push_back(dump.name);
+  Loaded loaded = load(inputs, output);
   print(loaded.diagnostics);
-  const std::vector<Dump> dumps = parse_dumps(options.dumps, loaded.plan);
+  check_dumps(dumps, loaded.plan, of_dumps);
+  config::throw_if_errors(of_dumps);
   const scene::Scene& scene = loaded.problem->scene;
   const std::unique_ptr<gpu::Device> device = gpu::Device::open(options.device);
+  plan_for(loaded, inputs, device->info().software);
   spdlog::info("{} on {}", loaded.pipeline.name, scene.name.empty() ? loaded.scene_file : scene.name);
   spdlog::info("{} particles, {} stages, {:.1f} MiB; {}", loaded.problem->particles.position.size(), loaded.plan.stages.size(),
                static_cast<double>(loaded.plan.bytes) / (1 << 20), device->info().name);
@@ -108,7 +116,7 @@ int run(const RunOptions& options) {
                           clock.frame, clock.step);
         });
     execution.finish();
-    for (const Dump& dump : dumps) write_dump(execution, dump);
+    for (const NamedFile& dump : dumps) write_array(execution, dump.name, dump.file);
   } catch (const execution::NumbersError& error) {
     conclude(Status::numbers_broke, error.what());
     throw;
@@ -132,15 +140,15 @@ void add_run(CLI::App& program, Action& action) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* verb = program.add_subcommand("run", "Simulate: pictures, video, data, and a manifest of the run");
   add_inputs(*verb, options->inputs);
-  verb->add_option("--steps", options->steps, "Stop after so many steps")->check(CLI::NonNegativeNumber);
-  verb->add_option("--frames", options->frames, "Stop after so many frames")->check(CLI::NonNegativeNumber)->excludes("--steps");
+  verb->add_option("--steps", options->steps, "Stop after so many steps")->check(at_least(0));
+  verb->add_option("--frames", options->frames, "Stop after so many frames")->check(at_least(0))->excludes("--steps");
   verb->add_option("--out", options->output, "Folder for results (default: out/<pipeline>, with --scene out/<pipeline>-<scene>)");
   verb->add_option("--dump", options->dumps, "BUFFER=FILE.npy: write a buffer at the end")->allow_extra_args(false);
   verb->add_option("--device", options->device,
                    "auto (hardware first), hardware, software, a number as doctor lists them, or part of a name")
       ->capture_default_str();
   verb->add_option("--barriers", options->barriers, "derived: those of the plan; all: a full one after every piece of work")
-      ->check(CLI::IsMember({"derived", "all"}))
+      ->check(one_of({"derived", "all"}))
       ->capture_default_str();
   verb->callback([&action, options] { action = [options] { return run(*options); }; });
 }

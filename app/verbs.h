@@ -23,10 +23,15 @@ using Action = std::function<int()>;
 // Each adds its verb to the program; when it is called, `action` is set.
 void add_bench(CLI::App& program, Action& action);
 void add_check(CLI::App& program, Action& action);
+void add_completion(CLI::App& program, Action& action);
 void add_doctor(CLI::App& program, Action& action);
+void add_explain(CLI::App& program, Action& action);
+void add_inspect(CLI::App& program, Action& action);
 void add_list(CLI::App& program, Action& action);
 void add_profile(CLI::App& program, Action& action);
 void add_run(CLI::App& program, Action& action);
+void add_schema(CLI::App& program, Action& action);
 void add_test(CLI::App& program, Action& action);
+void add_try(CLI::App& program, Action& action);
 
 }  // namespace firn::app

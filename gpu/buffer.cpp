@@ -84,10 +84,10 @@ void Buffer::clear() {
   context.check();
 }
 
-BufferTexture::BufferTexture(const Buffer& buffer, TexelFormat format, const std::string& label) {
+BufferTexture::BufferTexture(const Buffer& buffer, TexelFormat format, const std::string& label, std::uint64_t bytes) {
   Context& context = current();
   context.check();
-  const std::uint64_t texels = buffer.bytes() / bytes_per_texel(format);
+  const std::uint64_t texels = bytes / bytes_per_texel(format);
   const std::uint64_t most = context.info.limits.texture_buffer_texels;
   if (texels > most) {
     // OpenGL itself would hide the rest in silence.
@@ -98,7 +98,10 @@ BufferTexture::BufferTexture(const Buffer& buffer, TexelFormat format, const std
   try {
     glActiveTexture(context.edit_unit);
     glBindTexture(GL_TEXTURE_BUFFER, id_);
-    glTexBuffer(GL_TEXTURE_BUFFER, gl_format(format).internal, buffer.id());
+    if (bytes == buffer.bytes() || bytes == 0)
+      glTexBuffer(GL_TEXTURE_BUFFER, gl_format(format).internal, buffer.id());
+    else
+      glTexBufferRange(GL_TEXTURE_BUFFER, gl_format(format).internal, buffer.id(), 0, static_cast<GLsizeiptr>(bytes));
     name_object(GL_TEXTURE, id_, label);
     context.check();
   } catch (...) {

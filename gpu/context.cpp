@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -93,6 +94,13 @@ Limits read_limits() {
   return limits;
 }
 
+std::uint64_t memory_of(const DeviceInfo& info) {
+  constexpr GLenum dedicated_kilobytes = 0x9047;  // GPU_MEMORY_INFO_DEDICATED_VIDMEM_NVX
+  if (info.extensions.contains("GL_NVX_gpu_memory_info")) return number(dedicated_kilobytes) * 1024;
+  if (!info.software) return 0;
+  return static_cast<std::uint64_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
+
 DeviceInfo read_info() {
   DeviceInfo info;
   info.name = text(GL_RENDERER);
@@ -109,6 +117,7 @@ DeviceInfo read_info() {
     info.extensions.insert(reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, index)));
   }
   info.limits = read_limits();
+  info.limits.memory_bytes = memory_of(info);
   return info;
 }
 

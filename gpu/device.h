@@ -37,6 +37,7 @@ struct Limits {
   std::uint32_t groups[3] = {0, 0, 0};
   std::uint32_t group_invocations = 0;
   std::uint64_t shared_bytes = 0;
+  std::uint64_t memory_bytes = 0;  // of a software renderer: the machine's; 0: the driver does not tell
 };
 
 struct DeviceInfo {

@@ -35,12 +35,14 @@ class Buffer {
   std::uint64_t bytes_ = 0;
 };
 
-// A buffer seen as a one-dimensional texture (texelFetch): the fast way to read on software renderers. The buffer must outlive it.
-// Throws DeviceError where it has more texels than the device reads through a texture.
+// The first `bytes` of a buffer seen as a one-dimensional texture (texelFetch): the fast way to read on software renderers. The
+// buffer must outlive it. Throws DeviceError where it has more texels than the device reads through a texture.
 class BufferTexture {
  public:
   BufferTexture() = default;
-  BufferTexture(const Buffer& buffer, TexelFormat format, const std::string& label);
+  BufferTexture(const Buffer& buffer, TexelFormat format, const std::string& label, std::uint64_t bytes);
+  BufferTexture(const Buffer& buffer, TexelFormat format, const std::string& label)
+      : BufferTexture(buffer, format, label, buffer.bytes()) {}
   ~BufferTexture();
   BufferTexture(BufferTexture&& other) noexcept;
   BufferTexture& operator=(BufferTexture&& other) noexcept;

@@ -26,7 +26,8 @@ constexpr std::array<std::pair<Bit, const char*>, 11> bit_table{{
 constexpr Bits every_bit = (1u << 11) - 1;
 constexpr Bits write_bits = bit_shader_storage | bit_shader_image_access;  // the bits that later shader writes wait at
 
-// What is open for one buffer at one point of the execution. Accumulations are kept apart: among themselves they need no order.
+// What is open for one storage at one point of the execution; buffers that share it count as one. Accumulations are kept apart:
+// among themselves they need no order.
 struct BufferState {
   Bits stale = 0;              // consumers that may not see the last shader write yet
   Bits stale_accumulated = 0;  // the same after accumulation
@@ -35,6 +36,7 @@ struct BufferState {
   struct Last {
     int stage = -1;
     Access access = Access::read;
+    int buffer = -1;
   };
   Last written, accessed;  // for the reasons only
 
@@ -114,6 +116,11 @@ class Placement {
     return consumer_bit(access.usage, plan_.buffers[static_cast<std::size_t>(access.buffer)].texture);
   }
 
+  [[nodiscard]] std::size_t storage(const BufferAccess& access) const {
+    return static_cast<std::size_t>(plan_.buffers[static_cast<std::size_t>(access.buffer)].storage);
+  }
+  [[nodiscard]] const std::string& name(int buffer) const { return plan_.buffers[static_cast<std::size_t>(buffer)].name; }
+
   [[nodiscard]] const std::string& label(int stage) const { return plan_.stages[static_cast<std::size_t>(stage)].label; }
 
   static const char* verb(Access access) {
@@ -122,7 +129,7 @@ class Placement {
 
   // Adds the bits that one access waits for, and why.
   void need(const BufferAccess& access, const std::string& who, const State& state, Barrier& barrier) const {
-    const BufferState& buffer = state.buffers[static_cast<std::size_t>(access.buffer)];
+    const BufferState& buffer = state.buffers[storage(access)];
     const bool accumulates = access.access == Access::accumulate;
     const Bits bit = access_bit(access);
     const Bits stale = buffer.stale | (accumulates ? 0 : buffer.stale_accumulated);
@@ -131,33 +138,36 @@ class Placement {
     const bool overtakes = is_shader_write(access) && (unordered & bit) != 0;
     if (!sees_old && !overtakes) return;
     const BufferState::Last& earlier = sees_old ? buffer.written : buffer.accessed;
-    const std::string reason = fmt::format("{}: {} by {}, {} by {}", plan_.buffers[static_cast<std::size_t>(access.buffer)].name,
-                                           verb(earlier.access), label(earlier.stage), verb(access.access), who);
+    const std::string shared =
+        earlier.buffer == access.buffer ? "" : fmt::format(", in memory that was {}'s", name(earlier.buffer));
+    const std::string reason = fmt::format("{}{}: {} by {}, {} by {}", name(access.buffer), shared, verb(earlier.access),
+                                           label(earlier.stage), verb(access.access), who);
     barrier.bits |= bit;
     if (std::ranges::find(barrier.reasons, reason) == barrier.reasons.end()) barrier.reasons.push_back(reason);
   }
 
-  static void apply(const BufferAccess& access, int stage, State& state) {
-    BufferState& buffer = state.buffers[static_cast<std::size_t>(access.buffer)];
+  void apply(const BufferAccess& access, int stage, State& state) const {
+    BufferState& buffer = state.buffers[storage(access)];
     const bool accumulates = access.access == Access::accumulate;
     if (is_shader_write(access)) {
       (accumulates ? buffer.stale_accumulated : buffer.stale) = every_bit;
-      buffer.written = {stage, access.access};
+      buffer.written = {stage, access.access, access.buffer};
     }
     // The API's own accesses are done, or ordered by OpenGL, when the next command starts.
     if (access.usage == Usage::host || access.usage == Usage::transfer) return;
     (accumulates ? buffer.unordered_accumulated : buffer.unordered) |= write_bits;
-    buffer.accessed = {stage, access.access};
+    buffer.accessed = {stage, access.access, access.buffer};
   }
 
   void need_until(const Repeat& repeat, const State& state, Barrier& barrier) const {
-    if (repeat.until) need({repeat.until->buffer, Access::read, Usage::transfer}, "the end of the repeat", state, barrier);
+    if (repeat.until && repeat.until->progress < 0)
+      need({repeat.until->buffer, Access::read, Usage::transfer}, "the end of the repeat", state, barrier);
   }
 
   static void place(Bits bits, State& state, std::vector<Op>& ops) {
     if (bits == 0) return;
     state.barrier(bits);
-    ops.push_back({Barrier{bits, {}}});
+    ops.emplace_back().what = Barrier{bits, {}};
   }
 
   // `ops`, which hold no barriers, with those that they need when they start in `state`; leaves the state at their end.
@@ -241,7 +251,7 @@ class Placement {
 
   static void close(std::vector<Op>& phase, Bits bits) {
     if (bits == 0) return;
-    if (phase.empty() || !std::holds_alternative<Barrier>(phase.back().what)) phase.push_back({Barrier{}});
+    if (phase.empty() || !std::holds_alternative<Barrier>(phase.back().what)) phase.emplace_back().what = Barrier{};
     std::get<Barrier>(phase.back().what).bits |= bits;
   }
 

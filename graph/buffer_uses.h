@@ -12,6 +12,8 @@
 
 namespace firn::graph {
 
+enum class Phase { setup, step, frame };
+
 // One piece of work, or the end of a repeat, on one buffer.
 struct BufferUse {
   Place place;
@@ -19,8 +21,8 @@ struct BufferUse {
   Access access = Access::read;       // of this piece of work
   Access port_access = Access::read;  // of the stage as a whole: it may mean to read what it left there in the step before
   Usage usage = Usage::storage;
-  bool in_step = false;
-  bool in_every_step = false;
+  Phase phase = Phase::setup;
+  bool writes_all = false;  // every element, whenever the phase runs: nothing of what was there before is left
 };
 using BufferUses = std::map<int, std::vector<BufferUse>>;  // by buffer; uses in the order of execution
 
@@ -28,7 +30,11 @@ using BufferUses = std::map<int, std::vector<BufferUse>>;  // by buffer; uses in
 // read before the first write; writes that nobody reads.
 void check_buffers(const Plan& plan, const BufferUses& uses, const Registry& registry, config::Diagnostics& diagnostics);
 
+// Whether a piece of work leaves nothing of a port's former content: it writes, and has one invocation for every element.
+// Dispatches over groups that are counted on the device, or over something else, are taken to write only a part.
+bool writes_all(const Work& work, const Port& port, Access access);
+
 // Lifetimes and storage of all buffers, and the plan's bytes.
-void lay_out_memory(Plan& plan, const BufferUses& uses);
+void lay_out_memory(Plan& plan, const BufferUses& uses, bool share);
 
 }  // namespace firn::graph

@@ -13,6 +13,8 @@
 #include "graph/barriers.h"
 #include "graph/buffer_uses.h"
 #include "graph/glsl.h"
+#include "graph/repeats.h"
+#include "graph/stage_file.h"
 
 namespace firn::graph {
 namespace {
@@ -45,8 +47,9 @@ Value read_value(const config::Node& node, const ParameterSpec& parameter, Diagn
 
 class Compiler {
  public:
-  Compiler(const PipelineSpec& pipeline, const Registry& registry, const Environment& environment, Diagnostics& diagnostics)
-      : pipeline_(pipeline), registry_(registry), diagnostics_(diagnostics) {
+  Compiler(const PipelineSpec& pipeline, const Registry& registry, const Environment& environment, Diagnostics& diagnostics,
+           const PlanOptions& options)
+      : pipeline_(pipeline), registry_(registry), diagnostics_(diagnostics), options_(options) {
     plan_.pipeline = pipeline.name;
     plan_.file = pipeline.file;
     plan_.environment = environment;
@@ -54,29 +57,33 @@ class Compiler {
 
   Plan run() {
     for (const std::vector<Item>* items : {&pipeline_.setup, &pipeline_.step, &pipeline_.frame}) survey(*items);
-    phase(pipeline_.setup, plan_.setup, false);
-    phase(pipeline_.step, plan_.step, true);
-    phase(pipeline_.frame, plan_.frame, false);
+    phase(pipeline_.setup, plan_.setup, Phase::setup);
+    phase(pipeline_.step, plan_.step, Phase::step);
+    phase(pipeline_.frame, plan_.frame, Phase::frame);
     check_buffers(plan_, uses_, registry_, diagnostics_);
     if (diagnostics_.has_errors()) return std::move(plan_);
-    lay_out_memory(plan_, uses_);
+    if (options_.decide_on_device) decide_on_device(plan_);
+    lay_out_memory(plan_, uses_, options_.share_memory);
     place_barriers(plan_);
     return std::move(plan_);
   }
 
  private:
-  // Which buffers the pipeline writes and reads at all, wherever: optional ports are bound by that. Whoever only goes on from what an
-  // optional port finds is no reader.
+  // Which buffers the pipeline writes and reads at all, wherever: optional ports are bound by that. Whoever only goes on from what
+  // an optional port finds is no reader; the end of a repeat is one.
   void survey(const std::vector<Item>& items) {
     Diagnostics told_later;
     for (const Item& item : items) {
-      if (const auto* repeat = std::get_if<RepeatUse>(&item.what)) survey(repeat->stages);
+      if (const auto* repeat = std::get_if<RepeatUse>(&item.what)) {
+        survey(repeat->stages);
+        for (const Until& until : repeat->until) read_.insert(until.buffer);
+      }
       const auto* use = std::get_if<StageUse>(&item.what);
-      const StageType* type = use != nullptr && use->enabled ? registry_.find(use->stage) : nullptr;
-      if (type == nullptr) continue;
+      const StageSpec* spec = use != nullptr && use->enabled ? spec_of(*use) : nullptr;
+      if (spec == nullptr) continue;
       PlannedStage planned;
-      planned.spec = type->spec;
-      planned.parameters = parameters(*use, type->spec, told_later);
+      planned.spec = *spec;
+      planned.parameters = parameters(*use, *spec, told_later);
       keep_what_holds(planned);
       for (const Port& port : planned.spec.ports) {
         const std::string buffer = bound_name(port, *use).first;
@@ -84,6 +91,12 @@ class Compiler {
         if (reads(port.access) && (!port.optional || port.access == Access::read)) read_.insert(buffer);
       }
     }
+  }
+
+  [[nodiscard]] const StageSpec* spec_of(const StageUse& use) const {
+    if (const auto file = pipeline_.stage_files.find(use.stage); file != pipeline_.stage_files.end()) return &file->second;
+    const StageType* type = registry_.find(use.stage);
+    return type == nullptr ? nullptr : &type->spec;
   }
 
   // The buffer that a port is to have, and where the pipeline says so (nowhere: its own name).
@@ -98,21 +111,22 @@ class Compiler {
            (writes(port.access) && plan_.environment.provided.contains(buffer));
   }
 
-  void phase(const std::vector<Item>& items, std::vector<Op>& ops, bool in_step) {
+  void phase(const std::vector<Item>& items, std::vector<Op>& ops, Phase in) {
     for (const Item& item : items) {
-      if (const auto* use = std::get_if<StageUse>(&item.what)) stage(*use, ops, in_step);
+      if (const auto* use = std::get_if<StageUse>(&item.what)) stage(*use, ops, in);
       if (const auto* repeat = std::get_if<RepeatUse>(&item.what)) {
         Repeat planned;
         planned.max = repeat->max;
-        phase(repeat->stages, planned.body, in_step);
+        planned.place = repeat->place;
+        phase(repeat->stages, planned.body, in);
         if (planned.body.empty()) continue;
-        if (!repeat->until.empty()) until(repeat->until.front(), planned, in_step);
-        ops.push_back({std::move(planned)});
+        if (!repeat->until.empty()) until(repeat->until.front(), planned, in);
+        ops.emplace_back().what = std::move(planned);
       }
     }
   }
 
-  void until(const Until& until, Repeat& planned, bool in_step) {
+  void until(const Until& until, Repeat& planned, Phase in) {
     const int buffer = plan_.buffer(until.buffer);
     if (buffer < 0) {
       diagnostics_.error(until.place,
@@ -120,11 +134,16 @@ class Compiler {
       return;
     }
     const PlannedBuffer& watched = plan_.buffers[static_cast<std::size_t>(buffer)];
-    if (watched.type != ElementType::float1 || watched.count != 1)
-      diagnostics_.error(until.place, fmt::format("until needs a buffer of one float; '{}' is {} x {}", until.buffer, watched.count,
-                                                  name(watched.type)));
-    uses_[buffer].push_back({until.place, "until", Access::read, Access::read, Usage::transfer, in_step, in_step});
-    planned.until = PlannedUntil{buffer, until.below};
+    const bool whole = watched.type == ElementType::int1 || watched.type == ElementType::uint1;
+    if ((watched.type != ElementType::float1 && !whole) || watched.texture)
+      diagnostics_.error(until.place, fmt::format("until needs a buffer of float, int or uint; '{}' is {}{}", until.buffer,
+                                                  watched.texture ? "an image of " : "", name(watched.type)));
+    if (const double least = watched.type == ElementType::uint1 ? 0.0 : -2147483648.0;
+        whole && !(until.below > least && until.below <= 2147483648.0))
+      diagnostics_.error(until.place, fmt::format("no {} is below {:g} and another is not; 'below' must lie in what '{}' can hold",
+                                                  name(watched.type), until.below, until.buffer));
+    uses_[buffer].push_back({until.place, "until", Access::read, Access::read, Usage::transfer, in, false});
+    planned.until = PlannedUntil{buffer, until.below, -1};
   }
 
   [[nodiscard]] std::vector<std::string> buffer_names() const {
@@ -133,9 +152,12 @@ class Compiler {
     return names;
   }
 
-  void stage(const StageUse& use, std::vector<Op>& ops, bool in_step) {
-    const StageType* type = registry_.find(use.stage);
-    if (type == nullptr) {
+  void stage(const StageUse& use, std::vector<Op>& ops, Phase in) {
+    const StageSpec* spec = spec_of(use);
+    if (is_stage_file(use.stage)) return;  // its head has told what is wrong
+    if (pipeline_.stage_files.contains(use.stage) && registry_.find(use.stage) != nullptr)
+      diagnostics_.error(use.place, fmt::format("the file of this stage calls it '{}', as one of Firn's own is called", use.stage));
+    if (spec == nullptr) {
       diagnostics_.error(use.place,
                          fmt::format("unknown stage '{}'{}", use.stage, config::suggestion(use.stage, registry_.names())));
       return;
@@ -144,16 +166,16 @@ class Compiler {
     planned.label = use.label;
     planned.every = use.every;
     planned.place = use.place;
-    planned.spec = type->spec;
-    planned.parameters = parameters(use, type->spec, diagnostics_);
+    planned.spec = *spec;
+    planned.parameters = parameters(use, *spec, diagnostics_);
     keep_what_holds(planned);
-    const bool bindings_known = check_bindings(use, type->spec, planned.spec);
+    const bool bindings_known = check_bindings(use, *spec, planned.spec);
     if (!use.enabled || !bindings_known) return;
     check_constants(use, planned.spec);
     for (const Port& port : planned.spec.ports) planned.buffers.push_back(bind(port, use, planned));
     check_work_domains(use, planned.spec);
     plan_.stages.push_back(planned);
-    add_ops(static_cast<int>(plan_.stages.size()) - 1, ops, in_step);
+    add_ops(static_cast<int>(plan_.stages.size()) - 1, ops, in);
   }
 
   ParameterValues parameters(const StageUse& use, const StageSpec& spec, Diagnostics& diagnostics) {
@@ -162,10 +184,10 @@ class Compiler {
     for (const config::Entry& given : use.parameters) {
       const auto parameter = std::ranges::find(spec.parameters, given.key, &ParameterSpec::name);
       if (parameter == spec.parameters.end()) {
-        std::vector<std::string> known{"bind", "every", "enable", "as"};
-        for (const ParameterSpec& p : spec.parameters) known.insert(known.end() - 4, p.name);
+        std::vector<std::string> known{"bind", "every", "enable", "as", "when"};
+        for (const ParameterSpec& p : spec.parameters) known.insert(known.end() - 5, p.name);
         diagnostics.error(given.place,
-                           fmt::format("{} has no parameter '{}'{}", spec.name, given.key, config::suggestion(given.key, known)));
+                          fmt::format("{} has no parameter '{}'{}", spec.name, given.key, config::suggestion(given.key, known)));
         continue;
       }
       values[given.key] = read_value(given.value, *parameter, diagnostics);
@@ -203,23 +225,29 @@ class Compiler {
     return known;
   }
 
-  [[nodiscard]] std::string why_missing(const std::string& name) const {
+  // Domains and constants have names of their own.
+  [[nodiscard]] std::string why_missing(const std::string& name, const std::vector<std::string>& known) const {
     const auto reason = plan_.environment.missing.find(name);
-    return reason == plan_.environment.missing.end() ? "" : ": " + reason->second;
+    return reason == plan_.environment.missing.end() ? config::suggestion(name, known) : ": " + reason->second;
   }
 
   void check_constants(const StageUse& use, const StageSpec& spec) {
+    std::vector<std::string> known;
+    for (const Constant& constant : plan_.environment.constants) known.push_back(constant.name);
     for (const std::string& constant : spec.constants)
       if (plan_.environment.constant(constant) == nullptr)
-        diagnostics_.error(use.place,
-                           fmt::format("{} needs '{}', which is not known here{}", spec.name, constant, why_missing(constant)));
+        diagnostics_.error(
+            use.place, fmt::format("{} needs '{}', which is not known here{}", spec.name, constant, why_missing(constant, known)));
   }
 
   // Once per stage, however many ports have the domain.
   void unknown_domain(const Place& place, const StageUse& use, const std::string& domain) {
     const std::string base = base_domain(domain);
+    std::vector<std::string> known;
+    for (const auto& [name, size] : plan_.environment.domains) known.push_back(name);
     if (unknown_domains_.insert(use.label + " " + base).second)
-      diagnostics_.error(place, fmt::format("{} works on '{}', which is not known here{}", use.stage, base, why_missing(base)));
+      diagnostics_.error(place,
+                         fmt::format("{} works on '{}', which is not known here{}", use.stage, base, why_missing(base, known)));
   }
 
   void check_work_domains(const StageUse& use, const StageSpec& spec) {
@@ -283,10 +311,10 @@ class Compiler {
     if (port.unit != buffer.unit) mismatch("unit", buffer.unit, port.unit);
   }
 
-  void add_ops(int index, std::vector<Op>& ops, bool in_step) {
+  void add_ops(int index, std::vector<Op>& ops, Phase in) {
     const PlannedStage& stage = plan_.stages[static_cast<std::size_t>(index)];
     for (int w = 0; w < static_cast<int>(stage.spec.work.size()); ++w) {
-      Run run{index, w, {}};
+      Run run{.stage = index, .work = w, .accesses = {}};
       std::map<int, std::pair<std::string, Access>> touched;
       for (const UsedPort& used : used_ports(stage, stage.spec.work[static_cast<std::size_t>(w)])) {
         const Port& port = stage.spec.ports[static_cast<std::size_t>(used.port)];
@@ -300,16 +328,17 @@ class Compiler {
                           "them to two buffers",
                           stage.label, other->second.first, port.name, plan_.buffers[static_cast<std::size_t>(buffer)].name));
         run.accesses.push_back({buffer, used.access, used.usage});
-        uses_[buffer].push_back(
-            {stage.place, stage.label, used.access, port.access, used.usage, in_step, in_step && stage.every == 1});
+        uses_[buffer].push_back({stage.place, stage.label, used.access, port.access, used.usage, in,
+                                 stage.every == 1 && writes_all(stage.spec.work[static_cast<std::size_t>(w)], port, used.access)});
       }
-      ops.push_back({std::move(run)});
+      ops.emplace_back().what = std::move(run);
     }
   }
 
   const PipelineSpec& pipeline_;
   const Registry& registry_;
   Diagnostics& diagnostics_;
+  const PlanOptions options_;
   Plan plan_;
   BufferUses uses_;
   std::set<std::string> unknown_domains_;
@@ -323,8 +352,9 @@ int Plan::buffer(const std::string& name) const {
   return found == buffers.end() ? -1 : static_cast<int>(found - buffers.begin());
 }
 
-Plan compile(const PipelineSpec& pipeline, const Registry& registry, const Environment& environment, Diagnostics& diagnostics) {
-  return Compiler(pipeline, registry, environment, diagnostics).run();
+Plan compile(const PipelineSpec& pipeline, const Registry& registry, const Environment& environment, Diagnostics& diagnostics,
+             const PlanOptions& options) {
+  return Compiler(pipeline, registry, environment, diagnostics, options).run();
 }
 
 }  // namespace firn::graph

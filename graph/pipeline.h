@@ -3,11 +3,13 @@
 // The editable form of a pipeline: the file as read, every node with its place.
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "config/node.h"
+#include "graph/spec.h"
 
 namespace firn::graph {
 
@@ -19,13 +21,14 @@ struct Binding {
 };
 
 struct StageUse {
-  std::string stage;  // name in the registry, or path of a .comp file
+  std::string stage;  // name in the registry or in PipelineSpec::stage_files
   std::string label;  // unique in the pipeline: the stage's name, from the second on with #2, #3, or what `as:` says
   Place place;
   std::vector<config::Entry> parameters;
   std::vector<Binding> bindings;
   std::int64_t every = 1;
-  bool enabled = true;
+  bool wanted = true;   // `when` holds
+  bool enabled = true;  // and it is wanted; others are checked, but not planned
 };
 
 struct Until {
@@ -51,6 +54,7 @@ struct PipelineSpec {
   Place scene_place;
   config::Node parameters;  // with overrides applied
   std::vector<Item> setup, step, frame;
+  std::map<std::string, StageSpec> stage_files;  // by name: stages that are .comp files
 };
 
 // Changes from the command line.
@@ -60,7 +64,8 @@ struct Edits {
   std::vector<std::pair<std::string, config::Node>> replace;  // group -> list of stages
 };
 
-// Reads a pipeline file: includes, groups and their replacements, ${parameters}, edits. Everything wrong goes to `diagnostics`.
+// Reads a pipeline file: includes, groups and their replacements, ${parameters}, stages that are files, edits. Everything wrong
+// goes to `diagnostics`.
 PipelineSpec load_pipeline(const std::filesystem::path& file, const Edits& edits, config::Diagnostics& diagnostics);
 
 }  // namespace firn::graph

@@ -43,8 +43,9 @@ struct PlannedBuffer {
   bool texture = false;
   int width = 0, height = 0;  // textures
   Lifetime lifetime = Lifetime::state;
-  int storage = 0;  // buffers with the same number share memory
-  Place place;      // of the stage that names it first
+  int storage = 0;                          // buffers with the same number share memory
+  Place place;                              // of the stage that names it first
+  std::vector<std::uint32_t> initial = {};  // its contents at the start; empty: zeros
 };
 
 struct BufferAccess {
@@ -68,19 +69,26 @@ struct Barrier {
   Bits bits = 0;
   std::vector<std::string> reasons;
 };
+struct GroupCounts {  // of a dispatch inside a repeat that ends on the device: three uint, all 0 once the end is reached
+  int buffer = -1;    // -1: the dispatch always runs
+  int slot = 0;       // from element 3 * slot
+};
 struct Run {  // one dispatch, draw or host call
   int stage = 0;
   int work = 0;  // index into the stage's work
   std::vector<BufferAccess> accesses;
+  GroupCounts groups = {};
 };
 struct PlannedUntil {
   int buffer = 0;
   double below = 0;
+  int progress = -1;  // buffer of the kernel that decides (repeats.h); -1: the host reads `buffer` after each turn, as transfer
 };
-struct Repeat {  // the body runs 1..max times
+struct Repeat {  // the body runs 1..max times; where the device decides, always max times, the last ones perhaps without groups
   std::int64_t max = 1;
-  std::optional<PlannedUntil> until;  // read after each turn, as transfer
+  std::optional<PlannedUntil> until;
   std::vector<Op> body;
+  Place place = {};
 };
 struct Op {
   std::variant<Barrier, Run, Repeat> what;

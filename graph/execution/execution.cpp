@@ -4,11 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstring>
+#include <functional>
 #include <map>
 
 #include "graph/execution/kernels.h"
+#include "graph/repeats.h"
 
 namespace firn::execution {
 namespace {
@@ -38,41 +41,6 @@ std::span<const std::byte> bytes_of(const T& value) {
 
 }  // namespace
 
-std::vector<std::string> shortcomings(const Plan& plan, const gpu::Limits& limits) {
-  std::vector<std::string> found;
-  for (const PlannedBuffer& buffer : plan.buffers) {
-    if (!buffer.texture && buffer.bytes > limits.storage_block_bytes)
-      found.push_back(fmt::format("buffer '{}' needs {} bytes; the device's storage blocks hold {}", buffer.name, buffer.bytes,
-                                  limits.storage_block_bytes));
-    if (buffer.texture && std::max(buffer.width, buffer.height) > limits.texture_size)
-      found.push_back(fmt::format("image '{}' is {} x {}; the device's textures end at {}", buffer.name, buffer.width,
-                                  buffer.height, limits.texture_size));
-  }
-  for (int s = 0; s < static_cast<int>(plan.stages.size()); ++s) {
-    const PlannedStage& stage = plan.stages[static_cast<std::size_t>(s)];
-    for (int w = 0; w < static_cast<int>(stage.spec.work.size()); ++w) {
-      const auto* dispatch = std::get_if<graph::Dispatch>(&stage.spec.work[static_cast<std::size_t>(w)]);
-      if (dispatch == nullptr) continue;
-      const graph::KernelInterface interface = graph::kernel_interface(plan, s, w, {});
-      if (interface.storage_blocks > limits.storage_blocks_compute)
-        found.push_back(fmt::format("{} ({}) needs {} storage blocks; the device has {} per compute shader", stage.label,
-                                    dispatch->kernel, interface.storage_blocks, limits.storage_blocks_compute));
-      if (static_cast<std::uint32_t>(dispatch->group) > limits.group_invocations)
-        found.push_back(fmt::format("{} ({}) needs work groups of {}; the device's end at {}", stage.label, dispatch->kernel,
-                                    dispatch->group, limits.group_invocations));
-    }
-    for (const graph::Work& work : stage.spec.work)
-      for (const graph::UsedPort& used : graph::used_ports(stage, work)) {
-        const PlannedBuffer& buffer = plan.buffers[static_cast<std::size_t>(stage.buffers[static_cast<std::size_t>(used.port)])];
-        const std::uint64_t texels = buffer.count * (buffer.type == graph::ElementType::mat3 ? 3 : 1);
-        if (used.usage == graph::Usage::sampled && !buffer.texture && texels > limits.texture_buffer_texels)
-          found.push_back(fmt::format("{} reads '{}' as {} texels; the device's buffer textures hold {}", stage.label, buffer.name,
-                                      texels, limits.texture_buffer_texels));
-      }
-  }
-  return found;
-}
-
 struct Execution::Parts {
   gpu::Device& device;
   Plan plan;
@@ -86,7 +54,10 @@ struct Execution::Parts {
   gpu::Buffer faults;  // per stage and kind: count, 0xffffffff - first step
   std::unique_ptr<gpu::TimerRing> timers;
   std::vector<PassTime> clock_times;
-  std::map<const graph::Repeat*, RepeatTurns> repeats;
+  struct Turns {
+    std::uint64_t rounds = 0, turns = 0;
+  };
+  std::map<const graph::Repeat*, Turns> turns;  // as issued; where the device decides, it alone knows how many did something
 
   Parts(gpu::Device& device_, Plan plan_, const graph::Registry& registry, Options options_)
       : device(device_), plan(std::move(plan_)), options(std::move(options_)), memory(plan, device) {
@@ -122,19 +93,29 @@ struct Execution::Parts {
       } else if (const auto* run = std::get_if<graph::Run>(&op.what)) {
         work(*run, turn);
       } else if (const auto* repeat = std::get_if<graph::Repeat>(&op.what)) {
+        Turns& made = turns[repeat];
+        ++made.rounds;
         for (std::int64_t i = 0; i < repeat->max; ++i) {
+          ++made.turns;
           this->run(repeat->body, turn);
-          ++repeats[repeat].turns;
-          if (repeat->until && reached(*repeat->until)) break;
+          if (repeat->until && repeat->until->progress < 0 && reached(*repeat->until)) break;
         }
       }
     }
   }
 
   [[nodiscard]] bool reached(const graph::PlannedUntil& until) const {
-    float value = 0;
-    memory.buffers[static_cast<std::size_t>(until.buffer)].download(0, std::as_writable_bytes(std::span(&value, 1)));
-    return value < until.below;
+    const PlannedBuffer& watched = plan.buffers[static_cast<std::size_t>(until.buffer)];
+    const auto all = [&]<typename T>(T, auto limit) {
+      std::vector<T> values(watched.count);
+      memory.buffer(until.buffer).download(0, std::as_writable_bytes(std::span(values)));
+      return std::ranges::all_of(values, limit);
+    };
+    const std::int64_t largest = graph::largest_below(until.below);
+    const auto whole = [&](auto value) { return std::int64_t{value} <= largest; };
+    if (watched.type == graph::ElementType::int1) return all(std::int32_t{}, whole);
+    if (watched.type == graph::ElementType::uint1) return all(std::uint32_t{}, whole);
+    return all(0.0F, [&](float value) { return value < static_cast<float>(until.below); });
   }
 
   void work(const graph::Run& run, std::uint64_t turn);
@@ -160,7 +141,7 @@ class Context final : public graph::HostContext {
     const std::size_t b = index(port);
     if (plan_.buffers[b].texture) return memory_.textures[b].download();
     std::vector<std::byte> data(plan_.buffers[b].bytes);
-    memory_.buffers[b].download(0, data);
+    memory_.buffer(static_cast<int>(b)).download(0, data);
     return data;
   }
   void write(std::string_view port, std::span<const std::byte> data) override {
@@ -171,7 +152,7 @@ class Context final : public graph::HostContext {
     if (plan_.buffers[b].texture)
       memory_.textures[b].upload(data);
     else if (!data.empty())
-      memory_.buffers[b].upload(0, data);
+      memory_.buffer(static_cast<int>(b)).upload(0, data);
   }
   [[nodiscard]] const graph::Clock& clock() const override { return clock_; }
   void set_time_step(double dt) override {
@@ -207,7 +188,8 @@ void Execution::Parts::work(const graph::Run& run, std::uint64_t turn) {
     if (clock.dt != before) upload_clock();
     return;
   }
-  // A software renderer's timestamps say nothing of draws, which it does later, nor of what comes between: there the processor's clock.
+  // A software renderer's timestamps say nothing of draws, which it does later, nor of what comes between: there the processor's
+  // clock.
   const bool by_clock = options.profile && device.info().software;
   std::chrono::steady_clock::time_point start;
   if (by_clock) {
@@ -215,7 +197,7 @@ void Execution::Parts::work(const graph::Run& run, std::uint64_t turn) {
     start = std::chrono::steady_clock::now();
   }
   if (timers) timers->begin(run.stage * 64 + run.work);
-  run_kernel(plan, run.stage, run.work, kernels[s][static_cast<std::size_t>(run.work)], memory, parameters[s], clock_block, faults);
+  run_kernel(plan, run, kernels[s][static_cast<std::size_t>(run.work)], memory, parameters[s], clock_block, faults);
   if (timers) timers->end();
   if (by_clock) {
     device.finish();
@@ -285,7 +267,7 @@ std::vector<std::byte> Execution::read(const std::string& name) const {
   if (parts_->plan.buffers[b].texture) return parts_->memory.textures[b].download();
   gpu::memory_barrier(graph::bit_buffer_update);
   std::vector<std::byte> data(parts_->plan.buffers[b].bytes);
-  parts_->memory.buffers[b].download(0, data);
+  parts_->memory.buffer(index).download(0, data);
   return data;
 }
 
@@ -293,13 +275,29 @@ void Execution::write(const std::string& name, std::span<const std::byte> data) 
   const int index = parts_->plan.buffer(name);
   if (index < 0) throw std::out_of_range(fmt::format("no buffer '{}'", name));
   gpu::memory_barrier(graph::bit_buffer_update);
-  parts_->memory.buffers[static_cast<std::size_t>(index)].upload(0, data);
+  parts_->memory.buffer(index).upload(0, data);
 }
 
 std::vector<RepeatTurns> Execution::turns() const {
-  std::vector<RepeatTurns> result;
-  for (const auto& [repeat, turns] : parts_->repeats) result.push_back(turns);
-  return result;
+  std::vector<RepeatTurns> list;
+  const std::function<void(const std::vector<Op>&)> visit = [&](const std::vector<Op>& ops) {
+    for (const Op& op : ops)
+      if (const auto* repeat = std::get_if<graph::Repeat>(&op.what)) {
+        const auto made = parts_->turns.find(repeat);
+        RepeatTurns entry{repeat->place, repeat->max, 0, 0};
+        if (made != parts_->turns.end()) entry = {repeat->place, repeat->max, made->second.rounds, made->second.turns};
+        if (repeat->until && repeat->until->progress >= 0) {
+          std::array<std::uint32_t, graph::progress_size> words{};
+          gpu::memory_barrier(graph::bit_buffer_update);
+          parts_->memory.buffer(repeat->until->progress).download(0, std::as_writable_bytes(std::span(words)));
+          entry.turns = words[graph::progress_turns];
+        }
+        list.push_back(entry);
+        visit(repeat->body);
+      }
+  };
+  for (const std::vector<Op>* phase : {&parts_->plan.setup, &parts_->plan.step, &parts_->plan.frame}) visit(*phase);
+  return list;
 }
 
 std::vector<PassTime> Execution::take_times() {

@@ -33,9 +33,11 @@ struct PassTime {
   double seconds = 0;
 };
 
-// How many turns a repeat has taken so far.
+// How often a repeat has run, and how many turns that took in all; in the order of the plan.
 struct RepeatTurns {
-  std::uint64_t turns = 0;
+  config::Place place;
+  std::int64_t max = 1;
+  std::uint64_t rounds = 0, turns = 0;
 };
 
 // What the device lacks for a plan, one sentence each; empty: nothing.
@@ -57,6 +59,9 @@ class Execution {
   void frame();
   void finish();
 
+  // Waits for the device.
+  [[nodiscard]] std::vector<RepeatTurns> turns() const;
+
   // Throws NumbersError where kernels have reported a fault. Waits for the device.
   void check_faults();
 
@@ -68,9 +73,6 @@ class Execution {
   void write(const std::string& buffer, std::span<const std::byte> data);
 
   std::vector<PassTime> take_times();
-
-  // Of every repeat that has run.
-  [[nodiscard]] std::vector<RepeatTurns> turns() const;
 
  private:
   struct Parts;

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "graph/repeats.h"
+
 namespace firn::execution {
 namespace {
 
@@ -76,13 +78,6 @@ std::filesystem::path find_shader(const std::string& file, std::span<const std::
   throw gpu::ShaderError(fmt::format("{}: error: no such shader below:{}", file, searched));
 }
 
-// Groups of a one-dimensional dispatch, folded into two axes where one is too short (65,535 is all that OpenGL promises).
-std::pair<std::uint32_t, std::uint32_t> folded(std::uint64_t groups) {
-  constexpr std::uint64_t row = 32768;
-  if (groups <= row) return {static_cast<std::uint32_t>(groups), 1};
-  return {static_cast<std::uint32_t>(row), static_cast<std::uint32_t>((groups + row - 1) / row)};
-}
-
 gpu::DrawState draw_state(const Draw& draw) {
   gpu::DrawState state;
   switch (draw.topology) {
@@ -122,22 +117,37 @@ graph::DeviceTraits traits_of(const gpu::Device& device) {
 
 Memory::Memory(const Plan& plan, const gpu::Device&) {
   const std::size_t count = plan.buffers.size();
-  buffers.resize(count);
   textures.resize(count);
   texels.resize(count);
+  struct Storage {
+    std::uint64_t bytes = 0;
+    std::string names;
+  };
+  std::vector<Storage> storages(count);
   for (std::size_t b = 0; b < count; ++b) {
     const PlannedBuffer& buffer = plan.buffers[b];
-    if (buffer.texture)
+    storage_of_.push_back(static_cast<std::size_t>(buffer.storage));
+    if (buffer.texture) {
       textures[b] = gpu::Texture(buffer.width, buffer.height, texture_format(buffer.type), buffer.name);
-    else
-      buffers[b] = gpu::Buffer(buffer.bytes, buffer.name);
+      continue;
+    }
+    Storage& storage = storages[storage_of_[b]];
+    storage.bytes = std::max(storage.bytes, buffer.bytes);
+    storage.names += (storage.names.empty() ? "" : ", ") + buffer.name;
   }
+  storages_.resize(count);
+  for (std::size_t b = 0; b < count; ++b)
+    if (!storages[b].names.empty()) storages_[b] = gpu::Buffer(storages[b].bytes, storages[b].names);
+  for (std::size_t b = 0; b < count; ++b)
+    if (const std::vector<std::uint32_t>& initial = plan.buffers[b].initial; !initial.empty())
+      buffer(static_cast<int>(b)).upload(0, std::as_bytes(std::span(initial)));
   for (const PlannedStage& stage : plan.stages)
     for (const graph::Work& work : stage.spec.work)
       for (const graph::UsedPort& used : graph::used_ports(stage, work)) {
         const auto b = static_cast<std::size_t>(stage.buffers[static_cast<std::size_t>(used.port)]);
         if (used.usage != Usage::sampled || plan.buffers[b].texture || texels[b].id() != 0) continue;
-        texels[b] = gpu::BufferTexture(buffers[b], texel_format(plan.buffers[b].type), plan.buffers[b].name);
+        texels[b] = gpu::BufferTexture(buffer(static_cast<int>(b)), texel_format(plan.buffers[b].type), plan.buffers[b].name,
+                                       plan.buffers[b].bytes);
       }
 }
 
@@ -148,7 +158,11 @@ gpu::ShaderSource kernel_source(const Plan& plan, int stage, int work, const std
   source.text = kind == gpu::ShaderKind::compute
                     ? graph::compute_prelude(plan, stage, work, traits)
                     : graph::draw_prelude(plan, stage, work, kind == gpu::ShaderKind::fragment, traits);
-  gpu::append_file(source, find_shader(file, shader_folders), shader_folders);
+  const std::filesystem::path path = find_shader(file, shader_folders);
+  // A stage that is a file may have its own includes beside it.
+  std::vector<std::filesystem::path> folders(shader_folders.begin(), shader_folders.end());
+  if (std::filesystem::path(file).is_absolute()) folders.push_back(path.parent_path());
+  gpu::append_file(source, path, folders);
   return source;
 }
 
@@ -185,10 +199,10 @@ Kernel make_kernel(const Plan& plan, int stage_index, int work_index, const Memo
   return kernel;
 }
 
-void run_kernel(const Plan& plan, int stage_index, int work_index, const Kernel& kernel, const Memory& memory,
-                const gpu::Buffer& parameters, const gpu::Buffer& clock, const gpu::Buffer& faults) {
-  const PlannedStage& stage = stage_of(plan, stage_index);
-  const graph::Work& work = stage.spec.work[static_cast<std::size_t>(work_index)];
+void run_kernel(const Plan& plan, const graph::Run& run, const Kernel& kernel, const Memory& memory, const gpu::Buffer& parameters,
+                const gpu::Buffer& clock, const gpu::Buffer& faults) {
+  const PlannedStage& stage = stage_of(plan, run.stage);
+  const graph::Work& work = stage.spec.work[static_cast<std::size_t>(run.work)];
   gpu::use(kernel.program);
   gpu::bind_uniform(graph::parameter_block_binding, parameters);
   gpu::bind_uniform(graph::clock_block_binding, clock);
@@ -198,10 +212,10 @@ void run_kernel(const Plan& plan, int stage_index, int work_index, const Kernel&
     const auto at = static_cast<std::uint32_t>(binding.binding);
     switch (binding.usage) {
       case Usage::storage:
-        gpu::bind_storage(at, memory.buffers[buffer]);
+        gpu::bind_storage(at, memory.buffer(static_cast<int>(buffer)));
         break;
       case Usage::uniform:
-        gpu::bind_uniform(at, memory.buffers[buffer]);
+        gpu::bind_uniform(at, memory.buffer(static_cast<int>(buffer)));
         break;
       case Usage::sampled:
         if (binding.texture)
@@ -213,7 +227,7 @@ void run_kernel(const Plan& plan, int stage_index, int work_index, const Kernel&
         gpu::bind_image(at, memory.textures[buffer]);
         break;
       case Usage::indirect:
-        gpu::bind_indirect(memory.buffers[buffer]);
+        gpu::bind_indirect(memory.buffer(static_cast<int>(buffer)));
         break;
       case Usage::vertex:
       case Usage::transfer:
@@ -225,10 +239,12 @@ void run_kernel(const Plan& plan, int stage_index, int work_index, const Kernel&
   if (const auto* dispatch = std::get_if<Dispatch>(&work)) {
     if (!dispatch->indirect.empty()) {
       gpu::dispatch_indirect(0);
+    } else if (run.groups.buffer >= 0) {
+      gpu::bind_indirect(memory.buffer(run.groups.buffer));
+      gpu::dispatch_indirect(3 * sizeof(std::uint32_t) * static_cast<std::uint64_t>(run.groups.slot));
     } else if (kernel.elements > 0) {
-      const auto [x, y] =
-          folded((kernel.elements + static_cast<std::uint64_t>(dispatch->group) - 1) / static_cast<std::uint64_t>(dispatch->group));
-      gpu::dispatch(x, y, 1);
+      const auto [x, y, z] = graph::group_counts(kernel.elements, dispatch->group);
+      gpu::dispatch(x, y, z);
     }
   } else if (const auto* draw = std::get_if<Draw>(&work)) {
     if (draw->clear) {

@@ -20,9 +20,15 @@ graph::DeviceTraits traits_of(const gpu::Device& device);
 struct Memory {
   Memory(const graph::Plan& plan, const gpu::Device& device);
 
-  std::vector<gpu::Buffer> buffers;        // by planned buffer; empty where it is a texture
+  [[nodiscard]] const gpu::Buffer& buffer(int planned) const { return storages_[storage_of_[static_cast<std::size_t>(planned)]]; }
+  [[nodiscard]] gpu::Buffer& buffer(int planned) { return storages_[storage_of_[static_cast<std::size_t>(planned)]]; }
+
   std::vector<gpu::Texture> textures;      // by planned buffer; empty where it is a buffer
   std::vector<gpu::BufferTexture> texels;  // by planned buffer; empty where nobody samples it
+
+ private:
+  std::vector<std::size_t> storage_of_;  // by planned buffer
+  std::vector<gpu::Buffer> storages_;
 };
 
 // One dispatch or draw, ready to run. Host work has an empty program.
@@ -42,7 +48,7 @@ gpu::ShaderSource kernel_source(const graph::Plan& plan, int stage, int work, co
                                 const graph::DeviceTraits& traits, std::span<const std::filesystem::path> shader_folders);
 
 // Binds everything the kernel touches, and runs it.
-void run_kernel(const graph::Plan& plan, int stage, int work, const Kernel& kernel, const Memory& memory,
+void run_kernel(const graph::Plan& plan, const graph::Run& run, const Kernel& kernel, const Memory& memory,
                 const gpu::Buffer& parameters, const gpu::Buffer& clock, const gpu::Buffer& faults);
 
 }  // namespace firn::execution

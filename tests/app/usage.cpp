@@ -19,15 +19,22 @@ TEST_CASE("a bad word on the command line is named, with what would be right", "
       {{"run"}, "PIPELINE is required"},
       {{"check"}, "PIPELINE is required"},
       {{"check", "mpm_snow", "more"}, "more"},
-      {{"check", "mpm_snow", "--scen", "a.yaml"}, "--scen"},
+      {{"--verison"}, "firn: no option '--verison'; did you mean '--version'?"},
+      {{"run", "--stps", "5", "mpm_snow"}, "firn run: no option '--stps'; did you mean '--steps'?"},
+      {{"check", "mpm_snow", "--scen", "a.yaml"}, "firn check: no option '--scen'; did you mean '--scene'?"},
+      {{"check", "mpm_snow", "--scen=a.yaml"}, "no option '--scen'; did you mean '--scene'?"},
       {{"check", "mpm_snow", "--scene"}, "--scene"},
-      {{"list", "--jsn"}, "--jsn"},
-      {{"run", "mpm_snow", "--steps", "many"}, "--steps"},
+      {{"list", "--jsn"}, "no option '--jsn'; did you mean '--json'?"},
+      {{"run", "mpm_snow", "--steps", "many"}, "--steps: must be a number from 0, not 'many'"},
       {{"run", "mpm_snow", "--steps", "-1"}, "--steps"},
       {{"run", "mpm_snow", "--frames", "-1"}, "--frames"},
       {{"run", "mpm_snow", "--steps", "1", "--frames", "1"}, "excludes"},
-      {{"run", "mpm_snow", "--barriers", "none"}, "derived"},
-      {{"check", "mpm_snwo"}, "mpm_snwo: error: there is no such file"},
+      {{"run", "mpm_snow", "--barriers", "none"}, "--barriers: cannot be 'none'; valid: derived, all"},
+      {{"run", "mpm_snow", "--barriers", "derivd"}, "cannot be 'derivd'; did you mean 'derived'? valid: derived, all"},
+      {{"check", "mpm_snow", "--scene", "snowbal"}, "snowbal: error: there is no such file; did you mean 'snowball'?"},
+      {{"check", "mpm_snwo.yaml"}, "there is no such file; did you mean 'mpm_snow.yaml'?"},
+      {{"check", "pipelines/mpm_snwo.yaml"}, "there is no such file"},
+      {{"check", "mpm_snwo"}, "mpm_snwo: error: there is no such file; did you mean 'mpm_snow'?"},
       {{"check", "mpm_snow", "--set", "kernel"}, "--set kernel: error: '=' is missing"},
       {{"check", "mpm_snow", "--set", "kernel="}, "--set kernel=: error: the value after '=' is missing"},
       {{"check", "mpm_snow", "--set", "=3"}, "--set =3: error: a name"},
@@ -72,6 +79,30 @@ TEST_CASE("a bad word on the command line is named, with what would be right", "
   CHECK_FALSE(std::filesystem::exists(folder / "out"));
 }
 
+TEST_CASE("a mistyped file is told with the nearest beside it", "[app]") {
+  const Folder folder;
+  folder.write("thaw.yaml", "firn: 1\n");
+  const Outcome outcome = firn::test::run_firn({"check", folder / "thwa.yaml"});
+  INFO(outcome.err);
+  CHECK(outcome.status == 2);
+  CHECK(outcome.err.find("there is no such file; did you mean '" + (folder / "thaw.yaml") + "'?") != std::string::npos);
+}
+
+TEST_CASE("the progress display ends with the last step", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("scene.yaml", firn::test::small_scene);
+  const auto progress = [&](const Words& more) {
+    const Outcome outcome = firn::test::run_firn(firn::test::run_without_pictures("mpm_snow", scene, folder / "out", more));
+    INFO(outcome.err);
+    CHECK(outcome.status == 0);
+    return outcome.err;
+  };
+  CHECK(progress({"--steps", "7"}).find("100 %  frame 2  step 7 ") != std::string::npos);
+  CHECK(progress({"--set", "scene.time.end=0.002"}).find("100 %  frame 3  step 10 ") != std::string::npos);
+  CHECK(progress({"--steps", "7"}).find(" 0:00 left") != std::string::npos);
+  CHECK(progress({"--steps", "7", "-q"}).empty());
+}
+
 TEST_CASE("a --set that cannot be read brings no errors but its own", "[app]") {
   for (const char* text : {"scene.snow.0.per_cell=[1", "kernel=", "=3"}) {
     const Outcome outcome = firn::test::run_firn({"check", "mpm_snow", "--set", text});
@@ -82,7 +113,7 @@ TEST_CASE("a --set that cannot be read brings no errors but its own", "[app]") {
 }
 
 TEST_CASE("every verb explains itself, and the version is told", "[app]") {
-  for (const char* verb : {"run", "check", "list", "doctor", "test"}) {
+  for (const char* verb : {"run", "check", "list", "inspect", "try", "completion", "doctor", "test"}) {
     const Outcome help = firn::test::run_firn({verb, "--help"});
     CAPTURE(verb);
     CHECK(help.status == 0);

@@ -34,7 +34,7 @@ TEST_CASE("an unknown parameter is an error at its name, with the nearest one or
   CHECK(messages("firn: 1\nsetup: [demo.fill]\nstep:\n  - demo.tuned: {spede: 1}\n") ==
         Lines{"p.yaml:4:18: error: demo.tuned has no parameter 'spede'; did you mean 'speed'?"});
   CHECK(messages("firn: 1\nsetup: [demo.fill]\nstep:\n  - demo.move:\n      speed: 1\n") ==
-        Lines{"p.yaml:5:7: error: demo.move has no parameter 'speed'; valid: bind, every, enable, as"});
+        Lines{"p.yaml:5:7: error: demo.move has no parameter 'speed'; valid: bind, every, enable, as, when"});
   CHECK(messages("firn: 1\nsetup: [demo.fill]\nstep:\n  - demo.tuned: {evry: 1}\n") ==
         Lines{"p.yaml:4:18: error: demo.tuned has no parameter 'evry'; did you mean 'every'?"});
 }
@@ -147,7 +147,7 @@ TEST_CASE("an unknown domain is one error per stage, with the environment's reas
   graph::Registry registry = made_up_registry();
   registry.add(stage("demo.odd", {port("x", graph::Access::read_write, "edges")}));
   CHECK(compiled("firn: 1\nstep: [demo.odd]\n", {}, registry).messages ==
-        Lines{"p.yaml:2:8: error: demo.odd works on 'edges', which is not known here"});
+        Lines{"p.yaml:2:8: error: demo.odd works on 'edges', which is not known here; valid: cells, points"});
 }
 
 TEST_CASE("a kernel over an unknown domain is an error too") {

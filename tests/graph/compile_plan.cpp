@@ -125,6 +125,56 @@ TEST_CASE("an optional port is bound where its buffer is there, or where bind as
               "a stage that writes it"});
 }
 
+TEST_CASE("an optional input is bound wherever in setup or step its buffer is written") {
+  const auto bound = [](const std::string& yaml) {
+    const auto [plan, lines] = compiled("firn: 1\n" + yaml);
+    INFO(text_of(plan));
+    return stage_of(plan, "demo.extra").buffers.at(1) >= 0;
+  };
+  CHECK(bound("setup: [demo.fill]\nstep: [demo.extra, demo.blow]\n"));
+  CHECK(bound("setup: [demo.fill, demo.extra]\nstep: [demo.blow]\n"));
+  CHECK(bound("setup: [demo.fill]\nstep: [demo.extra, {demo.fill: {bind: {x: wind}}}]\n"));
+  CHECK_FALSE(bound("setup: [demo.fill]\nstep: [demo.extra, {demo.blow: {bind: {wind: gale}}}]\n"));
+  CHECK_FALSE(bound("setup: [demo.fill]\nstep: [demo.extra, {demo.blow: {enable: false}}]\n"));
+}
+
+TEST_CASE("an input written later in the step waits for the step before") {
+  CHECK(text_of(compiled("firn: 1\nsetup: [demo.fill]\nstep: [demo.extra, demo.blow]\n").plan) ==
+        "setup demo.fill step [shader_storage] demo.extra [shader_storage] demo.blow");
+}
+
+TEST_CASE("an optional output that nobody reads costs neither memory nor a warning") {
+  graph::Registry registry = made_up_registry();
+  graph::StageSpec spec = stage("demo.tell", {port("x", graph::Access::read_write), port("speed", graph::Access::write)});
+  spec.ports[1].optional = true;
+  registry.add(spec);
+  registry.add(stage("demo.hear", {port("speed", graph::Access::read)}));
+  const auto told = [&](const std::string& yaml, const graph::Environment& environment = made_up_environment()) {
+    const auto [plan, lines] = compiled("firn: 1\nsetup: [demo.fill]\nstep:\n" + yaml, {}, registry, environment);
+    CHECK(lines == Lines{});
+    CHECK((stage_of(plan, "demo.tell").buffers.at(1) >= 0) == (plan.buffer("speed") >= 0));
+    return plan.buffer("speed") >= 0;
+  };
+  CHECK_FALSE(told("  - demo.tell\n"));
+  CHECK_FALSE(told("  - demo.tell\n  - {demo.hear: {enable: false}}\n"));
+  CHECK(told("  - demo.tell\n  - demo.hear\n"));
+  CHECK(told("  - demo.tell\nframe: [demo.hear]\n"));
+  graph::Environment environment = made_up_environment();
+  environment.provided = {"speed"};
+  CHECK(told("  - demo.tell\n", environment));
+}
+
+TEST_CASE("an optional output that ends a repeat is bound") {
+  graph::Registry registry = made_up_registry();
+  graph::StageSpec spec = stage("demo.solve", {port("x", graph::Access::read_write), port("rest", graph::Access::write, "1")});
+  spec.ports[1].optional = true;
+  registry.add(spec);
+  const auto [plan, lines] = compiled(
+      "firn: 1\nsetup: [demo.fill]\nstep:\n  - repeat: {max: 3, until: {buffer: rest, below: 1}}\n    stages: [demo.solve]\n", {},
+      registry);
+  CHECK(plan.buffer("rest") >= 0);
+}
+
 TEST_CASE("a disabled stage is checked, but not in the plan") {
   const auto [plan, lines] =
       compiled("firn: 1\nsetup: [demo.fill]\nstep:\n  - demo.move\n  - demo.tuned: {enable: false, speed: 1}\n");
@@ -153,13 +203,23 @@ TEST_CASE("a repeat keeps its turns and watches its buffer") {
       CHECK(repeat->until->below == 1.0e-6);
 }
 
-TEST_CASE("until needs one float that the pipeline has") {
-  const auto with = [](const std::string& buffer) {
-    return messages("firn: 1\nsetup: [demo.fill]\nstep:\n  - repeat:\n      max: 3\n      until: {buffer: " + buffer +
-                    ", below: 1}\n    stages: [demo.move]\n");
+TEST_CASE("until needs a buffer of numbers that the pipeline has, and a limit they can meet") {
+  const auto with = [](const std::string& buffer, const std::string& below = "1") {
+    graph::Registry registry = made_up_registry();
+    registry.add(stage("demo.count", {port("left", graph::Access::write, "points", graph::ElementType::uint1)}));
+    registry.add(stage("demo.aim", {port("aim", graph::Access::write, "points", graph::ElementType::vec3)}));
+    return compiled("firn: 1\nsetup: [demo.fill, demo.aim]\nstep:\n  - repeat:\n      max: 3\n      until: {buffer: " + buffer +
+                        ", below: " + below + "}\n    stages: [demo.move, demo.count]\n",
+                    {}, registry)
+        .messages;
   };
-  CHECK(with("x") == Lines{"p.yaml:6:14: error: until needs a buffer of one float; 'x' is 10 x float"});
-  CHECK(with("y") == Lines{"p.yaml:6:14: error: no buffer 'y' to watch; valid: x"});
+  const auto first = [](const Lines& lines) { return lines.empty() ? std::string{} : lines.front(); };
+  CHECK(first(with("x")).find("error") == std::string::npos);
+  CHECK(first(with("left")).find("error") == std::string::npos);
+  CHECK(first(with("aim")) == "p.yaml:6:14: error: until needs a buffer of float, int or uint; 'aim' is vec3");
+  CHECK(first(with("y")) == "p.yaml:6:14: error: no buffer 'y' to watch; valid: x, aim, left");
+  CHECK(first(with("left", "0")) ==
+        "p.yaml:6:14: error: no uint is below 0 and another is not; 'below' must lie in what 'left' can hold");
 }
 
 TEST_CASE("a repeat without stages that run is left out with its until") {

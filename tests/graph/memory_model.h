@@ -60,7 +60,8 @@ inline void trace_ops(const std::vector<graph::Op>& ops, const Choices& choices,
       const std::int64_t turns = choices.turns(*repeat);
       for (std::int64_t turn = 0; turn < turns; ++turn) {
         trace_ops(repeat->body, choices, runs, trace);
-        if (repeat->until) trace.push_back({nullptr, -1, {{repeat->until->buffer, graph::Access::read, graph::Usage::transfer}}});
+        if (repeat->until && repeat->until->progress < 0)
+          trace.push_back({nullptr, -1, {{repeat->until->buffer, graph::Access::read, graph::Usage::transfer}}});
       }
     }
   }
@@ -101,8 +102,7 @@ class MemoryModel {
       if (only_first && !found.empty()) return found;
       // Accesses of one command have no order among themselves, so none is compared with another.
       for (const graph::BufferAccess& access : event.accesses)
-        accesses_[static_cast<std::size_t>(access.buffer)].push_back(
-            {now, event.stage, stores(access), adds(access), by_api(access)});
+        accesses_[storage(access)].push_back({now, event.stage, stores(access), adds(access), by_api(access)});
     }
     return found;
   }
@@ -135,9 +135,13 @@ class MemoryModel {
   }
   static bool adds(const graph::BufferAccess& access) { return stores(access) && access.access == graph::Access::accumulate; }
 
+  [[nodiscard]] std::size_t storage(const graph::BufferAccess& access) const {
+    return static_cast<std::size_t>(plan_.buffers[static_cast<std::size_t>(access.buffer)].storage);
+  }
+
   void compare(const graph::BufferAccess& access, int stage, std::vector<Hazard>& found) const {
-    const auto buffer = static_cast<std::size_t>(access.buffer);
-    const graph::Bits bit = bit_of(access, plan_.buffers[buffer].texture);
+    const auto buffer = storage(access);
+    const graph::Bits bit = bit_of(access, plan_.buffers[static_cast<std::size_t>(access.buffer)].texture);
     const std::vector<int>& named = barriers_.at(std::countr_zero(bit));
     const int last_barrier = named.empty() ? 0 : named.back();
     for (auto past = accesses_[buffer].rbegin(); past != accesses_[buffer].rend(); ++past) {
@@ -154,7 +158,7 @@ class MemoryModel {
   }
 
   const graph::Plan& plan_;
-  std::vector<std::vector<Past>> accesses_;      // by buffer
+  std::vector<std::vector<Past>> accesses_;      // by storage: buffers that share memory are one to the rules
   std::array<std::vector<int>, 11> barriers_{};  // times, by bit
 };
 

@@ -116,7 +116,20 @@ TEST_CASE("a group that is malformed is an error at what is wrong") {
   CHECK(step_messages("  - group: g\n") == Lines{"p.yaml:3:5: error: a group needs the key 'stages'"});
   CHECK(step_messages("  - group: [g]\n    stages: [a]\n") == Lines{"p.yaml:3:12: error: group must be a text, not a list"});
   CHECK(step_messages("  - group: g\n    stages: [a]\n    every: 2\n") ==
-        Lines{"p.yaml:5:5: error: a group has no key 'every'; valid: group, stages"});
+        Lines{"p.yaml:5:5: error: a group has no key 'every'; valid: group, when, stages"});
+}
+
+TEST_CASE("a when that is malformed is an error at what is wrong") {
+  const auto with = [](const std::string& when) {
+    return load_messages("firn: 1\nparameters: {kernel: cubic}\nstep:\n  - a: {when: " + when + "}\n");
+  };
+  CHECK(with("{kernl: cubic}") == Lines{"p.yaml:4:16: error: no parameter 'kernl' in this pipeline; did you mean 'kernel'?"});
+  CHECK(with("cubic") == Lines{"p.yaml:4:15: error: when must be a map of the pipeline's parameters to values such as {kernel: "
+                               "cubic}, not 'cubic'"});
+  CHECK(with("{kernel: {is: cubic}}") ==
+        Lines{"p.yaml:4:24: error: when compares 'kernel' with a value or a list of values, not with a map"});
+  CHECK(step_messages("  - a: {when: {k: 1}}\n") ==
+        Lines{"p.yaml:3:16: error: when asks for 'k', but this pipeline has no parameters of its own"});
 }
 
 TEST_CASE("replace of what is not there is an error with the nearest group") {

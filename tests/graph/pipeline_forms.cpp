@@ -46,14 +46,6 @@ TEST_CASE("a stage is a name, a name with options, or a map with the key stage")
         "a.move(speed=3) a.look(every=2)");
 }
 
-TEST_CASE("a stage's file is looked for beside the pipeline") {
-  const Folder folder;
-  folder.write("deep/p.yaml", "firn: 1\nstep:\n  - stage: ./blur.comp\n  - stage: ../lib/blur.comp\n    radius: 2\n");
-  const auto [pipeline, lines] = loaded(folder, "deep/p.yaml");
-  CHECK(lines == Lines{});
-  CHECK(folder.shortened(text_of(pipeline.step)) == "deep/blur.comp lib/blur.comp(radius=2)");
-}
-
 TEST_CASE("options: bind, every, enable, as") {
   CHECK(step_of("firn: 1\nstep:\n  - a.move: {bind: {x: y, z: w}, every: 4, enable: false, as: slow, speed: 1}\n") ==
         "slow(stage=a.move speed=1 x>y z>w every=4 off)");
@@ -118,6 +110,24 @@ TEST_CASE("stages keep the places of their names, options and values") {
   CHECK((second.place.line == 4 && second.place.column == 5));
   CHECK((second.parameters.at(0).place.column == 9 && second.parameters.at(0).value.place.column == 12));
   CHECK(second.bindings.at(0).place.column == 22);
+}
+
+TEST_CASE("when: a stage, a group or a repeat takes part only where a parameter of the pipeline has that value") {
+  const std::string yaml =
+      "firn: 1\nparameters: {kernel: cubic, passes: 4, mode: fast}\nstep:\n  - a: {when: {kernel: cubic}}\n"
+      "  - b: {when: {kernel: linear}}\n  - c: {when: {kernel: [linear, cubic], passes: 4.0}}\n"
+      "  - d: {when: {kernel: cubic, mode: slow}}\n  - {group: g, when: {passes: 3}, stages: [e, f]}\n"
+      "  - {repeat: 2, when: {mode: fast}, stages: [h, {i: {when: {passes: [1, 2]}}}]}\n";
+  CHECK(step_of(yaml) == "a b(off) c d(off) e(off) f(off) repeat 2 [h i(off)]");
+  CHECK(text_of(loaded(yaml, set({"kernel=linear", "passes=3", "mode=slow"})).pipeline.step) ==
+        "a(off) b c(off) d(off) e f repeat 2 [h(off) i(off)]");
+}
+
+TEST_CASE("a stage whose when does not hold cannot be enabled, and one that holds can be disabled") {
+  const std::string yaml =
+      "firn: 1\nparameters: {k: 1}\nstep:\n  - a: {when: {k: 2}, enable: true}\n  - b: {enable: false, when: {k: 1}}\n";
+  CHECK(step_of(yaml) == "a(off) b(off)");
+  CHECK(text_of(loaded(yaml, set({"a.enable=true", "b.enable=true"})).pipeline.step) == "a(off) b");
 }
 
 }  // namespace

@@ -26,11 +26,13 @@ TEST_CASE("an included pipeline gives what the including one does not say") {
 TEST_CASE("paths are relative to the file that names them") {
   const Folder folder;
   folder.write("lib/base.yaml", "firn: 1\nscene: scenes/one.yaml\nstep: [{stage: ./blur.comp}]\n");
+  folder.write("lib/blur.comp", "/*\nfirn: 1\nname: base_blur\ndoc: a stage\nports: {}\nover: points\n*/\n");
   folder.write("lib/deep/middle.yaml", "firn: 1\ninclude: ../base.yaml\n");
   folder.write("p.yaml", "firn: 1\ninclude: lib/deep/middle.yaml\n");
   folder.write("q.yaml", "firn: 1\ninclude: lib/deep/middle.yaml\nscene: mine.yaml\n");
   CHECK(folder.shortened(loaded(folder, "p.yaml").pipeline.scene) == "lib/scenes/one.yaml");
-  CHECK(folder.shortened(text_of(loaded(folder, "p.yaml").pipeline.step)) == "lib/blur.comp");
+  CHECK(text_of(loaded(folder, "p.yaml").pipeline.step) == "base_blur");
+  CHECK(loaded(folder, "p.yaml").messages == Lines{});
   CHECK(folder.shortened(loaded(folder, "q.yaml").pipeline.scene) == "mine.yaml");
 }
 

@@ -68,21 +68,21 @@ class PlanText {
       if (peek() == ";") {
         next();
       } else if (peek().front() == '[') {
-        list.push_back({barrier()});
+        list.emplace_back().what = barrier();
       } else if (peek() == "repeat") {
         next();
         graph::Repeat repeat;
         repeat.max = std::stoll(next());
         if (peek() == "until") {
           next();
-          repeat.until = graph::PlannedUntil{buffer(next()), 0.5};
+          repeat.until = graph::PlannedUntil{buffer(next()), 0.5, -1};
         }
         next();  // {
         repeat.body = ops();
         next();  // }
-        list.push_back({repeat});
+        list.emplace_back().what = repeat;
       } else {
-        list.push_back({run()});
+        list.emplace_back().what = run();
       }
     }
     return list;
@@ -110,6 +110,7 @@ class PlanText {
     if (known >= 0) return known;
     graph::PlannedBuffer& made = plan_.buffers.emplace_back();
     made.name = name;
+    made.storage = static_cast<int>(plan_.buffers.size()) - 1;
     made.texture = name.starts_with("image");
     return static_cast<int>(plan_.buffers.size()) - 1;
   }
@@ -133,8 +134,10 @@ inline std::string text_of(const graph::Plan& plan, const std::vector<graph::Op>
       words.push_back(word + (with_accesses ? ";" : ""));
     }
     if (const auto* repeat = std::get_if<graph::Repeat>(&op.what)) {
-      const std::string until =
-          repeat->until ? fmt::format("until {} ", plan.buffers[static_cast<std::size_t>(repeat->until->buffer)].name) : "";
+      // Where the device decides, the body's last command tells so itself.
+      const std::string until = repeat->until && repeat->until->progress < 0
+                                    ? fmt::format("until {} ", plan.buffers[static_cast<std::size_t>(repeat->until->buffer)].name)
+                                    : "";
       words.push_back(fmt::format("repeat {} {}{{ {} }}", repeat->max, until, text_of(plan, repeat->body, with_accesses)));
     }
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Random plans without barriers, of commands that OpenGL allows.
+// Random plans without barriers, of commands that OpenGL allows; some buffers share memory, some repeats end on the device.
 
 #include <random>
 #include <string>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "graph/plan.h"
+#include "graph/repeats.h"
 
 namespace firn::test {
 
@@ -20,11 +21,16 @@ class RandomPlan {
     for (int b = 0; b < buffers; ++b) {
       graph::PlannedBuffer& buffer = plan_.buffers.emplace_back();
       buffer.texture = below(3) == 0;
+      buffer.storage = b;
+      if (!buffer.texture && b > 0 && below(4) == 0)
+        if (const graph::PlannedBuffer& other = plan_.buffers[static_cast<std::size_t>(below(b))]; !other.texture)
+          buffer.storage = other.storage;
       buffer.name = (buffer.texture ? "image" : "buffer") + std::to_string(b);
     }
     plan_.setup = ops(below(4), 0);
     plan_.step = ops(below(7), 0);
     plan_.frame = ops(below(4), 0);
+    if (below(2) == 0) graph::decide_on_device(plan_);
     return std::move(plan_);
   }
 
@@ -54,6 +60,7 @@ class RandomPlan {
     if (plan_.stages.empty() || below(4) != 0) {
       graph::PlannedStage& stage = plan_.stages.emplace_back();
       stage.label = "stage" + std::to_string(plan_.stages.size());
+      stage.spec.work = {graph::Dispatch{.kernel = "random.comp", .over = "100"}};
       if (below(4) == 0) stage.every = 2 + below(2);
     }
     graph::Run command;
@@ -75,12 +82,12 @@ class RandomPlan {
         repeat.max = 1 + below(4);
         if (below(2) == 0) {
           const int watched = below(static_cast<int>(plan_.buffers.size()));
-          if (!plan_.buffers[static_cast<std::size_t>(watched)].texture) repeat.until = graph::PlannedUntil{watched, 0.5};
+          if (!plan_.buffers[static_cast<std::size_t>(watched)].texture) repeat.until = graph::PlannedUntil{watched, 0.5, -1};
         }
         repeat.body = ops(1 + below(3), depth + 1);
-        list.push_back({repeat});
+        list.emplace_back().what = repeat;
       } else {
-        list.push_back({run()});
+        list.emplace_back().what = run();
       }
     }
     return list;

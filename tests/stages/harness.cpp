@@ -6,6 +6,8 @@
 #include <cstring>
 #include <fstream>
 
+#include "app/arrays.h"
+
 namespace firn::test {
 namespace {
 
@@ -40,16 +42,8 @@ Arrays run_pipeline(const std::string& yaml, const graph::Environment& environme
   const graph::Plan plan = graph::compile(pipeline, registry, environment, diagnostics);
   config::throw_if_errors(diagnostics);
   execution::Execution execution(device(), plan, registry, {shader_folders(), barriers_all, false});
-  const auto fill = [&](const std::string& name, std::span<const std::byte> values) {
-    const int b = plan.buffer(name);
-    if (b < 0) throw std::logic_error("no buffer " + name);
-    const graph::PlannedBuffer& buffer = plan.buffers[static_cast<std::size_t>(b)];
-    const std::vector<std::byte> bytes = graph::padded(buffer.type, values);
-    if (bytes.size() != buffer.bytes) throw std::logic_error("wrong number of values for " + name);
-    execution.write(name, bytes);
-  };
-  for (const auto& [name, values] : in.floats) fill(name, std::as_bytes(std::span(values)));
-  for (const auto& [name, values] : in.integers) fill(name, std::as_bytes(std::span(values)));
+  for (const auto& [name, values] : in.floats) app::fill_buffer(execution, name, std::as_bytes(std::span(values)));
+  for (const auto& [name, values] : in.integers) app::fill_buffer(execution, name, std::as_bytes(std::span(values)));
   execution.setup();
   for (int i = 0; i < steps; ++i) {
     execution.clock().dt = dt;
@@ -59,7 +53,7 @@ Arrays run_pipeline(const std::string& yaml, const graph::Environment& environme
   Arrays out;
   for (const graph::PlannedBuffer& buffer : plan.buffers) {
     if (buffer.texture) continue;
-    const std::vector<std::byte> bytes = graph::unpadded(buffer.type, execution.read(buffer.name));
+    const std::vector<std::byte> bytes = app::read_buffer(execution, buffer.name);
     if (graph::scalar(buffer.type) == graph::Scalar::real)
       out.floats[buffer.name] = typed<float>(bytes);
     else

@@ -37,7 +37,7 @@ double lowest(const Solid& s, const Vector2d& at) {
   double result = none;
   if (s.kind == "sphere") return under_ball(s.position, s.size.x(), at);
   if (s.kind == "capsule") {
-    constexpr int balls = 400;
+    constexpr int balls = 1500;
     for (int i = 0; i <= balls; ++i)
       result = std::min(result, under_ball(world(Vector3d((2.0 * i / balls - 1) * s.size.y(), 0, 0)), s.size.x(), at));
     return result;

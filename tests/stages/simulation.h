@@ -33,6 +33,7 @@ struct Simulation {
     inputs.pipeline = pipeline_file(pipeline);
     inputs.scene = scene.path;
     inputs.set = std::move(set);
+    inputs.share_memory = false;  // tests look at scratch buffers too
     loaded = app::load(inputs, "");
     execution = std::make_unique<execution::Execution>(device(), loaded.plan, loaded.registry,
                                                        execution::Options{shader_folders(), barriers_all, false});

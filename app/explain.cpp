@@ -1,0 +1,108 @@
+#include "app/explain.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "app/choice.h"
+#include "app/load.h"
+#include "app/verbs.h"
+#include "stages/process.h"
+
+namespace firn::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ExplainOptions {
+  Inputs inputs;
+  std::string format = "text", output;
+};
+
+void write_text(const std::string& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  if (!stream.flush()) throw std::runtime_error(fmt::format("cannot write {}", file));
+}
+
+std::string read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// A new folder below the system's temporary one, removed at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "firn-XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error(fmt::format("cannot make a folder such as {}", name));
+    path = name;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  fs::path path;
+};
+
+std::string drawn(const std::string& dot) {
+  const fs::path graphviz = stages::find_program("dot");
+  if (graphviz.empty())
+    throw std::runtime_error(
+        "svg is drawn by Graphviz, whose program 'dot' is not installed (on Debian: apt install graphviz); '--format dot' writes "
+        "what it would draw");
+  const TemporaryFolder folder;
+  const fs::path source = folder.path / "plan.dot", picture = folder.path / "plan.svg", errors = folder.path / "errors";
+  write_text(source.string(), dot);
+  stages::Process process(graphviz, {"-Tsvg", "-o", picture.string(), source.string()}, "", errors);
+  if (process.finish() != 0) throw std::runtime_error(fmt::format("dot could not draw the plan: {}", read_text(errors)));
+  return read_text(picture);
+}
+
+int explain(const ExplainOptions& options) {
+  const Loaded loaded = load(options.inputs, "");
+  print(loaded.diagnostics);
+  std::string result;
+  if (options.format == "json")
+    result = explain_as_json(loaded.plan).dump(2) + "\n";
+  else if (options.format == "text")
+    result = explain_as_text(loaded.plan, loaded.pipeline.doc);
+  else
+    result = explain_as_dot(loaded.plan, loaded.pipeline.doc);
+  if (options.format == "svg") result = drawn(result);
+  if (options.output.empty())
+    fmt::print("{}", result);
+  else
+    write_text(options.output, result);
+  return Status::done;
+}
+
+}  // namespace
+
+std::string work_name(const graph::Work& work) {
+  if (const auto* dispatch = std::get_if<graph::Dispatch>(&work)) {
+    const fs::path kernel = dispatch->kernel;
+    return kernel.is_absolute() ? kernel.filename().string() : dispatch->kernel;
+  }
+  if (const auto* draw = std::get_if<graph::Draw>(&work)) return draw->name;
+  return "host";
+}
+
+void add_explain(CLI::App& program, Action& action) {
+  const auto options = std::make_shared<ExplainOptions>();
+  CLI::App* verb = program.add_subcommand("explain", "The plan of a pipeline: order, bindings, every barrier and why, memory");
+  add_inputs(*verb, options->inputs);
+  verb->add_option("--format", options->format, "text; json; dot, for Graphviz; svg, a picture that Graphviz draws")
+      ->check(one_of({"text", "json", "dot", "svg"}))
+      ->capture_default_str();
+  verb->add_option("--out", options->output, "File for it (default: stdout)");
+  verb->callback([&action, options] { action = [options] { return explain(*options); }; });
+}
+
+}  // namespace firn::app
