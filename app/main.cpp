@@ -74,6 +74,7 @@ int main(int argc, char** argv) {
   firn::app::add_profile(program, action);
   firn::app::add_check(program, action);
   firn::app::add_explain(program, action);
+  firn::app::add_compare(program, action);
   firn::app::add_inspect(program, action);
   firn::app::add_list(program, action);
   firn::app::add_try(program, action);

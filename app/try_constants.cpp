@@ -26,7 +26,7 @@ std::optional<graph::Value> read_constant(const Constant& known, const config::N
 std::optional<double> scale_from(const std::string& name, const GivenArrays& arrays) {
   const auto mass = arrays.find("mass"), velocity = arrays.find("velocity"), position = arrays.find("position");
   if (name == "crowd" && position != arrays.end())
-    return std::max(1.0, static_cast<double>(position->second.array.values.size() / 3));
+    return std::max(1.0, static_cast<double>(position->second.array.values.size()) / 3);
   if (mass == arrays.end()) return std::nullopt;
   double bound = 0;
   for (const double m : mass->second.array.values) bound += std::abs(m);

@@ -23,6 +23,7 @@ using Action = std::function<int()>;
 // Each adds its verb to the program; when it is called, `action` is set.
 void add_bench(CLI::App& program, Action& action);
 void add_check(CLI::App& program, Action& action);
+void add_compare(CLI::App& program, Action& action);
 void add_completion(CLI::App& program, Action& action);
 void add_doctor(CLI::App& program, Action& action);
 void add_explain(CLI::App& program, Action& action);

@@ -9,7 +9,7 @@ namespace firn::stages::heightfield {
 
 graph::StageSpec flatten() {
   using enum Access;
-  const auto passes = [](const char* kernel, std::vector<graph::PortUse> uses) {
+  const auto passes = [](const char* kernel, const std::vector<graph::PortUse>& uses) {
     std::vector<graph::PortUse> with_tiles = uses;
     with_tiles.push_back({"flatten_tiles", read});
     if (std::string_view(kernel) == "heightfield/flatten.comp") with_tiles.push_back({"changed_tiles", read_write});

@@ -48,7 +48,7 @@ inline std::vector<Bad> bad_pipelines() {
       {"flip: 0.95", "flip: @[1, 2]", "flip must be a number"},
       {"flip: 0.95", "flip: 0.95, @flip: 0.9", "duplicate key 'flip'"},
       {"{kernel: \"${kernel}\", flip", "{kernel: @qubic, flip", "kernel cannot be 'qubic'; did you mean 'cubic'"},
-      {"\"${kernel}\", flip", "@\"${kernle}\", flip", "did you mean 'kernel'"},
+      {"\"${kernel}\", flip", "@\"${kernle}\", flip", "did you mean 'kernel'", false},
       {"- mpm.deform", "- mpm.deform: {bind: {@elastik: elastic}}", "mpm.deform has no port 'elastik'; did you mean 'elastic'"},
       {"- mpm.deform", "- mpm.deform: {bind: {@elastic: position}}", "differ in type", false},
       {"- mpm.deform", "- mpm.deform: {every: @0}", "every must be"},
