@@ -1,17 +1,3 @@
-// The cell of this invocation, by the parameter `cells`: of all, or of the listed tiles.
-#include "lib/cells.glsl"
-
-bool own_cell(out ivec2 cell) {
-#if CELLS_ACTIVE
-  cell = ivec2(0);
-  if (group_number() >= tiles_count) return false;
-  uint tile = flatten_tiles[group_number()];
-  if (tile == no_tile) return false;
-  cell = tile_cell(tile);
-  return in_field(cell);
-#else
-  uint index = element_index();
-  cell = cell_at(min(index, cells_count - 1u));
-  return index < cells_count;
-#endif
-}
+// The cell of this invocation, by the parameter `cells`: of all, or of the tiles that relaxation listed.
+#define OWN_TILES flatten_tiles
+#include "lib/own_cell.glsl"
