@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
+
+#include "stages/mpm_ports.h"
 
 namespace firn::app {
 namespace {
@@ -80,10 +83,53 @@ void fill_buffer(execution::Execution& execution, const std::string& buffer, std
   execution.write(buffer, bytes);
 }
 
+namespace {
+
+std::vector<std::uint32_t> read_naturals(const execution::Execution& execution, const std::string& buffer) {
+  const std::vector<std::byte> bytes = execution.read(buffer);
+  std::vector<std::uint32_t> values(bytes.size() / sizeof(std::uint32_t));
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
+  return values;
+}
+
+// Values of stored blocks, laid out as the whole grid [nz, ny, nx]; zero where nothing is stored.
+std::vector<std::byte> whole_grid(const execution::Execution& execution, const scene::NpyShape& nodes,
+                                  const std::vector<std::byte>& stored, std::size_t element) {
+  const std::uint64_t nx = nodes.at(2), ny = nodes.at(1), nz = nodes.at(0), bx = nx / 4 + 1, by = ny / 4 + 1;
+  std::vector<std::byte> grid(nx * ny * nz * element);
+  const std::vector<std::uint32_t> blocks = read_naturals(execution, "active_blocks");
+  const std::uint64_t count = std::min<std::uint64_t>(read_naturals(execution, "active_block_count").at(0), blocks.size());
+  for (std::uint64_t row = 0; row < 16 * count; ++row) {  // of four nodes
+    const std::uint64_t block = blocks[row / 16];
+    const std::uint64_t x = 4 * (block % bx), y = 4 * (block / bx % by) + row % 4, z = 4 * (block / (bx * by)) + row / 4 % 4;
+    if (x >= nx || y >= ny || z >= nz) continue;
+    std::memcpy(&grid[(x + nx * (y + ny * z)) * element], &stored[4 * row * element], std::min<std::uint64_t>(4, nx - x) * element);
+  }
+  return grid;
+}
+
+}  // namespace
+
+Array read_array(const execution::Execution& execution, const std::string& buffer) {
+  const graph::PlannedBuffer& source = planned(execution, buffer);
+  Array array{source.domain, array_shape(execution.plan(), source), read_buffer(execution, buffer)};
+  if (source.domain != stages::mpm::block_nodes) return array;
+  const graph::DomainSize& nodes = execution.plan().environment.domains.at(stages::mpm::all_nodes);
+  const bool whole = nodes.count <= most_dumped_nodes;
+  array.shape.erase(array.shape.begin());
+  if (whole) {
+    array.domain = stages::mpm::all_nodes;
+    array.packed = whole_grid(execution, nodes.shape, array.packed, array.packed.size() / source.count);
+    array.shape.insert(array.shape.begin(), nodes.shape.begin(), nodes.shape.end());
+  } else {
+    array.shape.insert(array.shape.begin(), {source.count / 64, 4, 4, 4});
+  }
+  return array;
+}
+
 void write_array(const execution::Execution& execution, const std::string& buffer, const std::string& file) {
   const graph::PlannedBuffer& source = planned(execution, buffer);
-  const scene::NpyShape shape = array_shape(execution.plan(), source);
-  const std::vector<std::byte> values = read_buffer(execution, buffer);
+  const auto [domain, shape, values] = read_array(execution, buffer);
   switch (array_kind(source.type)) {
     case scene::NpyKind::int32:
       return write_as<std::int32_t>(file, shape, values);

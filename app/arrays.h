@@ -3,8 +3,10 @@
 // Buffers as arrays in files: packed scalars in C order, without the padding they have on the device.
 //
 // Shape: that of the domain (particles: N; nodes: nz, ny, nx; cells: rows along z, columns along x), then the components (vec3: 3;
-// mat3: 3, 3).
+// mat3: 3, 3). Buffers of stored blocks of the grid are written as the whole grid where that has no more than 2^28 nodes, else as
+// blocks: slots, 4, 4, 4.
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,7 +29,14 @@ std::vector<std::byte> packed_values(graph::ElementType type, const std::vector<
 std::vector<std::byte> read_buffer(const execution::Execution& execution, const std::string& buffer);
 void fill_buffer(execution::Execution& execution, const std::string& buffer, std::span<const std::byte> packed);
 
-// Writes a buffer to an .npy file.
+inline constexpr std::uint64_t most_dumped_nodes = std::uint64_t{1} << 28;
+struct Array {
+  std::string domain;
+  scene::NpyShape shape;
+  std::vector<std::byte> packed;
+};
+Array read_array(const execution::Execution& execution, const std::string& buffer);
+// Writes it to an .npy file.
 void write_array(const execution::Execution& execution, const std::string& buffer, const std::string& file);
 
 }  // namespace firn::app

@@ -73,11 +73,15 @@ std::vector<Mass> masses_of(const Side& side, const graph::Environment& environm
   return masses;
 }
 
-// What only one stage works with is its own affair.
-bool is_shared(const graph::Plan& plan, int buffer) {
+// What only one stage works with is its own affair, and what differs from run to run tells nothing.
+bool is_comparable(const graph::Plan& plan, int buffer) {
   std::set<std::string> stages;
   for (const graph::PlannedStage& stage : plan.stages)
-    if (std::ranges::find(stage.buffers, buffer) != stage.buffers.end()) stages.insert(stage.spec.name);
+    for (std::size_t p = 0; p < stage.buffers.size(); ++p)
+      if (stage.buffers[p] == buffer) {
+        stages.insert(stage.spec.name);
+        if (!stage.spec.ports[p].repeatable) return false;
+      }
   return stages.size() > 1;
 }
 
@@ -85,8 +89,10 @@ void take_state(Side& side, execution::Execution& execution) {
   const graph::Plan& plan = execution.plan();
   for (int b = 0; b < static_cast<int>(plan.buffers.size()); ++b) {
     const graph::PlannedBuffer& buffer = plan.buffers[static_cast<std::size_t>(b)];
-    if (!buffer.texture && buffer.lifetime == graph::Lifetime::state && buffer.count > 0 && is_shared(plan, b))
-      side.buffers[buffer.name] = {buffer.type, buffer.domain, buffer.unit, read_buffer(execution, buffer.name)};
+    if (!buffer.texture && buffer.lifetime == graph::Lifetime::state && buffer.count > 0 && is_comparable(plan, b)) {
+      Array array = read_array(execution, buffer.name);
+      side.buffers[buffer.name] = {buffer.type, std::move(array.domain), buffer.unit, std::move(array.packed)};
+    }
   }
   side.masses = masses_of(side, plan.environment);
   const int image = plan.buffer("image");

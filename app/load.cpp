@@ -54,20 +54,21 @@ std::vector<std::pair<std::string, config::Node>> read_replacements(const std::v
   return replacements;
 }
 
-// Memory is told before it is taken: particles on the host while they are sampled, and their state and the grid's on the device.
+// Memory is told before it is taken: particles on the host while they are sampled, and their state on the device. What a pipeline's
+// grid takes is known once it is planned.
 void check_memory(const scene::Scene& scene, config::Diagnostics& diagnostics) {
-  constexpr double per_particle = 64 + 64 + 400, per_node = 80;  // bytes: sampling, scene and upload, the pipelines' buffers
+  constexpr double per_particle = 64 + 64 + 400;  // bytes: sampling, scene and upload, the pipelines' buffers
   const double particles = static_cast<double>(scene::estimate_particles(scene));
-  const double nodes = scene.domain ? scene.domain->nodes().cast<double>().prod() : 0;
-  const double needed = particles * per_particle + nodes * per_node;
+  const double needed = particles * per_particle;
   const double there = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   if (needed <= there) return;
   constexpr double gib = 1 << 30;
   diagnostics.error(
       scene.domain ? scene.domain->place : config::Place{scene.file, 0, 0},
-      fmt::format("{:.0f} grid nodes and up to {:.0f} particles would take about {:.1f} GiB; this machine has {:.1f} GiB; make the "
-                  "cell larger or the domain smaller",
-                  nodes, particles, needed / gib, there / gib));
+      fmt::format(
+          "up to {:.0f} particles would take about {:.1f} GiB; this machine has {:.1f} GiB; make the cell larger or the snow "
+          "smaller",
+          particles, needed / gib, there / gib));
 }
 
 }  // namespace

@@ -11,8 +11,9 @@ std::optional<Neutral> neutral_value(const graph::Port& port) {
   constexpr std::string_view always_needed[] = {"position",         "mass",      "volume",    "depth",        "material_elastic",
                                                 "material_plastic", "body_kind", "body_size", "body_position"};
   // Lists that another stage makes; the stage that keeps them starts from none.
-  constexpr std::string_view made_elsewhere[] = {"order",         "cell_start",   "active_blocks",      "active_block_count",
-                                                 "active_groups", "active_tiles", "active_tile_groups", "packed_state"};
+  constexpr std::string_view made_elsewhere[] = {
+      "order",      "cell_start",  "active_blocks", "active_block_count", "active_groups",      "block_groups",    "block_slot",
+      "block_near", "block_cells", "particle_cell", "active_tiles",       "active_tile_groups", "packed_particles"};
   if (std::ranges::find(always_needed, port.name) != std::end(always_needed)) return std::nullopt;
   if (port.access == graph::Access::read && std::ranges::find(made_elsewhere, port.name) != std::end(made_elsewhere))
     return std::nullopt;

@@ -11,6 +11,7 @@
 #include "config/nearest.h"
 #include "config/reader.h"
 #include "stages/heightfield_ports.h"
+#include "stages/mpm_ports.h"
 
 namespace firn::app {
 namespace {
@@ -174,7 +175,12 @@ class Sizing {
     if (nodes == environment_.domains.end() || nodes->second.shape.size() != 3) return;
     const scene::NpyShape& n = nodes->second.shape;
     environment_.domains["grid_rows"] = DomainSize{n[0] * n[1]};
-    environment_.domains["grid_blocks"] = DomainSize{(n[0] + 3) / 4 * ((n[1] + 3) / 4) * ((n[2] + 3) / 4)};
+    const auto particles = environment_.domains.find("particles");
+    const stages::mpm::BlockRoom room =
+        stages::mpm::block_room({static_cast<int>(n[2]), static_cast<int>(n[1]), static_cast<int>(n[0])},
+                                particles == environment_.domains.end() ? 0 : particles->second.count);
+    environment_.domains["grid_blocks"] = DomainSize{room.blocks};
+    environment_.domains["block_table"] = DomainSize{room.table};
     const graph::Vector3 per_axis{static_cast<double>(n[2]), static_cast<double>(n[1]), static_cast<double>(n[0])};
     std::erase_if(environment_.constants, [](const graph::Constant& constant) { return constant.name == "grid_nodes"; });
     environment_.constants.push_back({"grid_nodes", graph::ElementType::ivec3, per_axis, "1", "nodes per axis"});
@@ -188,7 +194,7 @@ class Sizing {
     } else if (is_image(base)) {
       environment_.domains[base] = base == "image" ? size_of(base, {720, 1280}) : size_of(base, {2048, 2048});
       notes_.push_back(fmt::format("'{}' is {} x {}", base, environment_.domains[base].width, environment_.domains[base].height));
-    } else if (base == "tiles" || base == "grid_rows" || base == "grid_blocks") {
+    } else if (base == "tiles" || base == "grid_rows" || base == "grid_blocks" || base == "block_table") {
       const char* from = base == "tiles" ? "cells" : "nodes";
       if (!needed_.contains(from)) no_size(base, ports, fmt::format(", --size {}={}", base, base == "tiles" ? "[4, 4]" : "16"));
     } else {

@@ -271,6 +271,10 @@ class Compiler {
       unknown_domain(place, use, port.domain);
       return -1;
     }
+    constexpr std::uint64_t most = std::uint64_t{1} << 31;
+    if (*count > most && existing < 0)
+      diagnostics_.error(place, fmt::format("{}: buffer '{}' would have {} elements of '{}', and devices count to 2^31",
+                                            stage.spec.name, wanted, *count, port.domain));
     const int index = existing >= 0 ? existing : make_buffer(wanted, port, *count, place);
     PlannedBuffer& buffer = plan_.buffers[static_cast<std::size_t>(index)];
     if (existing >= 0) match(port, *count, buffer, place, stage);

@@ -83,7 +83,7 @@ std::string_view describe(Fault fault) {
     case Fault::not_a_number:
       return "a value that is not a finite number";
     case Fault::overflow:
-      return "a sum that overflows its fixed-point range";
+      return "a sum or a list that outgrows the room kept for it";
     case Fault::left_domain:
       return "a particle outside the domain";
   }

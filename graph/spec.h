@@ -34,6 +34,7 @@ struct Port {
   std::string doc;
   bool optional = false;  // may stay unbound; then HAS_<NAME> is 0 in its kernels
   Condition when = {};    // the port exists only where this holds
+  bool repeatable = true;  // false: what it holds depends on the order in which invocations run, though results do not
 };
 
 enum class ParameterKind { number, integer, boolean, choice, vector3, path };

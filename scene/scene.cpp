@@ -15,8 +15,9 @@ namespace {
 
 constexpr int format_version = 1;
 constexpr int fewest_cells = 8;  // per axis: twice the cubic kernel's stencil, so that some cells are free of its margins
-constexpr double most_nodes = 2147483648.0;  // 2^31: nodes are counted in 32 bits on the device
-constexpr double bytes_per_node = 16;        // mass and momentum in single precision, the least that a node holds
+constexpr double nodes_per_block = 64;
+constexpr double bytes_per_node = 36;         // mass and two velocities in single precision
+constexpr double most_blocks = 2147483648.0;  // 2^31: blocks of 4 x 4 x 4 nodes are counted in 32 bits on the device
 
 void read_version(Reader& reader) {
   const Node* node = reader.require("firn");
@@ -75,6 +76,7 @@ std::optional<Domain> read_domain(const Node& node, Diagnostics& diagnostics) {
   const std::optional<Vector3d> min = required_vector3(reader, "min");
   const std::optional<Vector3d> max = required_vector3(reader, "max");
   const double cell = reader.required_number("cell", positive);
+  const std::int64_t blocks = reader.integer("blocks", 0, {1, most_blocks, false, false});
   reader.finish();
   if (!min || !max || std::isnan(cell)) return std::nullopt;
 
@@ -105,15 +107,17 @@ std::optional<Domain> read_domain(const Node& node, Diagnostics& diagnostics) {
   if (good && !whole)
     report(fmt::format("the domain's extent must be a whole multiple of cell = {:.6g}; the nearest that fits is max: {}", cell,
                        to_text(fitting)));
-  if (good && nodes > most_nodes)
+  if (good && nodes > most_blocks * nodes_per_block)
     report(fmt::format(
-        "a grid of {:.4g} nodes is beyond 2^31 and would take at least {:.4g} GiB; a larger cell or a smaller domain is needed",
+        "a grid of {:.4g} nodes is beyond 2^31 blocks of 4 x 4 x 4 (all of it would take {:.4g} GiB); a larger cell or a "
+        "smaller domain is needed",
         nodes, nodes * bytes_per_node / (1 << 30)));
   if (!good) return std::nullopt;
   Domain domain;
   domain.min = *min;
   domain.max = *max;
   domain.cell = cell;
+  if (blocks > 0) domain.blocks = blocks;
   domain.place = node.place;
   return domain;
 }

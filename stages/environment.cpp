@@ -5,6 +5,7 @@
 #include "scene/materials.h"
 #include "scene/solid.h"
 #include "stages/heightfield_ports.h"
+#include "stages/mpm_ports.h"
 #include "stages/problem.h"
 
 namespace firn::stages {
@@ -48,7 +49,7 @@ double extent(const scene::Shape& shape) {
   return std::numeric_limits<double>::infinity();
 }
 
-void add_grid(const scene::Domain& domain, graph::Environment& environment) {
+void add_grid(const scene::Domain& domain, std::size_t particles, graph::Environment& environment) {
   const Eigen::Vector3i nodes = domain.nodes();
   const auto count = [](auto n) { return graph::DomainSize{static_cast<std::uint64_t>(n)}; };
   const std::uint64_t nx = static_cast<std::uint64_t>(nodes.x()), ny = static_cast<std::uint64_t>(nodes.y()),
@@ -56,7 +57,10 @@ void add_grid(const scene::Domain& domain, graph::Environment& environment) {
   environment.domains["nodes"] = count(nx * ny * nz);
   environment.domains["nodes"].shape = {nz, ny, nx};
   environment.domains["grid_rows"] = count(ny * nz);
-  environment.domains["grid_blocks"] = count((nx + 3) / 4 * ((ny + 3) / 4) * ((nz + 3) / 4));
+  const mpm::BlockRoom room =
+      mpm::block_room({nodes.x(), nodes.y(), nodes.z()}, particles, static_cast<std::uint64_t>(domain.blocks.value_or(0)));
+  environment.domains["grid_blocks"] = count(room.blocks);
+  environment.domains["block_table"] = count(room.table);
   environment.constants.push_back({"grid_min", ElementType::vec3, graph::Vector3{domain.min.x(), domain.min.y(), domain.min.z()},
                                    "m", "position of node (0, 0, 0)"});
   environment.constants.push_back({"grid_cell", ElementType::float1, domain.cell, "m", "distance h of neighbouring nodes"});
@@ -128,8 +132,8 @@ void add_view(const scene::Scene& scene, graph::Environment& environment) {
 
 void say_what_is_missing(graph::Environment& environment) {
   const char* no_grid = "the scene has no 'domain' with 'snow' in it";
-  for (const char* name : {"particles", "nodes", "grid_rows", "grid_blocks", "grid_min", "grid_cell", "grid_nodes", "mass_scale",
-                           "momentum_scale", "crowd"})
+  for (const char* name : {"particles", "nodes", "grid_rows", "grid_blocks", "block_table", "grid_min", "grid_cell", "grid_nodes",
+                           "mass_scale", "momentum_scale", "crowd"})
     environment.missing[name] = no_grid;
   for (const char* name :
        {"cells", "tiles", "field_min", "field_cell", "min_density", "max_density", "material_slope", "field_color"})
@@ -208,7 +212,7 @@ graph::Environment environment(const Problem& problem) {
   add_view(scene, result);
   if (scene.domain && !scene.snow.empty()) {
     result.domains["particles"] = count(problem.particles.position.size());
-    add_grid(*scene.domain, result);
+    add_grid(*scene.domain, problem.particles.position.size(), result);
     add_scales(problem, result);
   }
   if (scene.field) add_field(scene, result);

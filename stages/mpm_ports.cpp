@@ -1,5 +1,7 @@
 #include "stages/mpm_ports.h"
 
+#include <algorithm>
+#include <bit>
 #include <stdexcept>
 
 namespace firn::stages::mpm {
@@ -58,15 +60,18 @@ Port material_plastic(Access access, Usage usage) {
               "critical compression theta_c, critical stretch theta_s");
 }
 
-Port grid_mass(Access access, Usage usage) {
-  return port("grid_mass", ElementType::float1, "nodes", access, usage, "kg", "mass of nodes");
+Port grid_mass(Access access, Usage usage, const char* nodes) {
+  return port("grid_mass", ElementType::float1, nodes, access, usage, "kg", "mass of nodes");
 }
-Port grid_velocity(Access access, Usage usage) {
-  return port("grid_velocity", ElementType::vec3, "nodes", access, usage, "m/s", "velocity of nodes, with forces and collisions");
+Port grid_velocity(Access access, Usage usage, const char* nodes) {
+  return port("grid_velocity", ElementType::vec3, nodes, access, usage, "m/s", "velocity of nodes, with forces and collisions");
 }
-Port grid_velocity_before(Access access, Usage usage) {
-  return port("grid_velocity_before", ElementType::vec3, "nodes", access, usage, "m/s",
+Port grid_velocity_before(Access access, Usage usage, const char* nodes) {
+  return port("grid_velocity_before", ElementType::vec3, nodes, access, usage, "m/s",
               "velocity of nodes before forces and collisions");
+}
+std::vector<Port> by_nodes(GridPort port, Access access, Usage usage) {
+  return {when(port(access, usage, all_nodes), "nodes", "all"), when(port(access, usage, block_nodes), "nodes", "active")};
 }
 
 std::vector<Port> grid_mass_and_momentum_sums(Access access) {
@@ -95,8 +100,8 @@ Port stress_max(Access access) {
 }
 
 Port order(Access access, Usage usage) {
-  return port("order", ElementType::uint1, "particles", access, usage, "1",
-              "numbers of the particles, sorted by cell, then by number");
+  return unrepeatable(port("order", ElementType::uint1, "particles", access, usage, "1",
+              "numbers of the particles, sorted by cell, then by number"));
 }
 Port optional_order() {
   Port port = order(Access::read);
@@ -108,14 +113,39 @@ Port cell_start(Access access, Usage usage) {
               "place in `order` of every cell's first particle; the next cell of the row gives its end");
 }
 Port active_blocks(Access access) {
-  return port("active_blocks", ElementType::uint1, "grid_blocks", access, Usage::storage, "1",
-              "blocks of 4 x 4 x 4 nodes that particles reach");
+  return unrepeatable(port("active_blocks", ElementType::uint1, "grid_blocks", access, Usage::storage, "1",
+              "blocks of 4 x 4 x 4 nodes that particles reach, x fastest: block (i, j, k) has the nodes from 4 (i, j, k) on"));
+}
+Port particle_cell(Access access) {
+  return unrepeatable(port("particle_cell", ElementType::uint1, "particles", access, Usage::storage, "1", "cell of every particle"));
+}
+Port block_cells(Access access, Usage usage) {
+  return unrepeatable(port("block_cells", ElementType::uint1, "block_table*65", access, usage, "1",
+              "place in `order` of every cell's first particle, 64 cells a block, and the block's end"));
+}
+Port block_entry(Access access) {
+  return unrepeatable(port("block_entry", ElementType::uint1, "grid_blocks", access, Usage::storage, "1",
+              "entry of the table for every block of active_blocks"));
+}
+Port block_slot(Access access) {
+  return unrepeatable(port("block_slot", ElementType::uint1, "block_table", access, Usage::storage, "1", "place in active_blocks"));
+}
+Port block_near(Access access) {
+  return unrepeatable(port("block_near", ElementType::ivec4, "grid_blocks*4", access, Usage::storage, "1",
+              "the eight blocks above as entries of the table (-1: none), the eight below as places in active_blocks"));
+}
+BlockRoom block_room(const std::array<int, 3>& nodes, std::uint64_t particles, std::uint64_t asked) {
+  std::uint64_t all = 1;
+  for (const int n : nodes) all *= static_cast<std::uint64_t>(n) / 4 + 1;
+  const std::uint64_t blocks = std::min(all, asked > 0 ? asked : std::max<std::uint64_t>(65'536, particles / 8));
+  return {blocks, std::bit_ceil(2 * blocks)};
 }
 Port active_block_count(Access access) {
   return port("active_block_count", ElementType::uint1, "1", access, Usage::storage, "1", "how many of active_blocks are valid");
 }
 Port active_groups(Access access, Usage usage) {
-  return port("active_groups", ElementType::uint1, "3", access, usage, "1", "size of a dispatch with one group per active block");
+  return port("active_groups", ElementType::uint1, "3", access, usage, "1",
+              "size of a dispatch with one group per block of active_blocks");
 }
 
 Port body(const char* name, Access access, Usage usage) {
@@ -144,11 +174,11 @@ Port body(const char* name, Access access, Usage usage) {
     if (std::string_view(name) == facts.name) return port(facts.name, facts.type, "bodies", access, usage, facts.unit, facts.doc);
   throw std::logic_error(std::string("no port of bodies is called ") + name);
 }
-std::vector<Port> bodies(Access access) {
+std::vector<Port> bodies(Access access, Usage usage) {
   std::vector<Port> ports;
   for (const char* name :
        {"body_kind", "body_size", "body_position", "body_orientation", "body_velocity", "body_spin", "body_friction"})
-    ports.push_back(body(name, access));
+    ports.push_back(body(name, access, usage));
   return ports;
 }
 
@@ -159,6 +189,10 @@ std::vector<Port> key_frames(Access access) {
           port("path_orientation", ElementType::vec4, frames, access, Usage::storage, "1", "orientations at key frames")};
 }
 
+Port unrepeatable(Port port) {
+  port.repeatable = false;
+  return port;
+}
 Port when(Port port, const char* parameter, const char* value) {
   port.when = Condition{parameter, value};
   return port;
@@ -183,7 +217,7 @@ graph::ParameterSpec nodes_parameter() {
           .kind = graph::ParameterKind::choice,
           .initial = std::string("all"),
           .choices = {"all", "active"},
-          .doc = "all nodes of the grid, or those of the blocks that mpm.active_blocks found"};
+          .doc = "all nodes of the grid, or only blocks that particles reach, as mpm.sort finds and stores them"};
 }
 
 std::vector<Port> joined(std::initializer_list<std::vector<Port>> lists) {
@@ -199,6 +233,10 @@ std::vector<graph::Work> over_nodes(const std::string& kernel) {
 std::vector<Port> node_choice_ports() {
   return {when(active_blocks(Access::read), "nodes", "active"), when(active_block_count(Access::read), "nodes", "active"),
           when(active_groups(Access::read, Usage::indirect), "nodes", "active")};
+}
+std::vector<Port> stencil_ports() {
+  return {when(particle_cell(Access::read), "nodes", "active"), when(block_slot(Access::read), "nodes", "active"),
+          when(block_near(Access::read), "nodes", "active")};
 }
 std::vector<graph::Work> over_particles_and_nodes(const std::string& kernel) {
   return {graph::Dispatch{.kernel = kernel, .over = "particles*64", .when = {"kernel", "cubic"}},

@@ -2,6 +2,9 @@
 
 // The buffers of the material-point stages, each declared once: type, domain, unit and meaning. A stage takes what it needs.
 
+#include <array>
+#include <cstdint>
+
 #include "graph/spec.h"
 
 namespace firn::stages::mpm {
@@ -28,9 +31,15 @@ Port material_elastic(Access access, Usage usage = Usage::storage);
 Port material_plastic(Access access, Usage usage = Usage::storage);
 
 // --- grid ---
-Port grid_mass(Access access, Usage usage = Usage::storage);
-Port grid_velocity(Access access, Usage usage = Usage::storage);
-Port grid_velocity_before(Access access, Usage usage = Usage::storage);
+// All nodes of the grid, or those of stored blocks (block_nodes): 64 a block, x fastest, in the order of active_blocks.
+inline constexpr const char* all_nodes = "nodes";
+inline constexpr const char* block_nodes = "grid_blocks*64";
+Port grid_mass(Access access, Usage usage = Usage::storage, const char* nodes = all_nodes);
+Port grid_velocity(Access access, Usage usage = Usage::storage, const char* nodes = all_nodes);
+Port grid_velocity_before(Access access, Usage usage = Usage::storage, const char* nodes = all_nodes);
+// A port of the grid once for every choice of the parameter `nodes`.
+using GridPort = Port (*)(Access, Usage, const char* nodes);
+std::vector<Port> by_nodes(GridPort port, Access access, Usage usage = Usage::storage);
 // The accumulators, once as integers and once as floats; a stage that has them has the parameter `accumulate`.
 std::vector<Port> grid_sums(Access mass_and_momentum, Access force);
 std::vector<Port> grid_mass_and_momentum_sums(Access access);
@@ -41,15 +50,30 @@ Port stress_max(Access access);
 Port order(Access access, Usage usage = Usage::storage);
 Port optional_order();  // where sorting has been done, neighbours in space are worked on together
 Port cell_start(Access access, Usage usage = Usage::storage);
+Port particle_cell(Access access);
 Port active_blocks(Access access);
 Port active_block_count(Access access);
 Port active_groups(Access access, Usage usage = Usage::storage);
+Port block_cells(Access access, Usage usage = Usage::storage);
+Port block_entry(Access access);
+Port block_slot(Access access);
+Port block_near(Access access);
+
+// Room for blocks of 4 x 4 x 4 nodes that particles reach.
+struct BlockRoom {
+  std::uint64_t blocks = 0;  // at most so many at once (domain grid_blocks)
+  std::uint64_t table = 0;   // entries of the hash table that finds them, a power of two (domain block_table)
+};
+// `asked`: of the scene, 0: none. Else an eighth of the particles, at least 65,536, and never more than the grid has.
+BlockRoom block_room(const std::array<int, 3>& nodes, std::uint64_t particles, std::uint64_t asked = 0);
 
 // --- rigid bodies ---
-std::vector<Port> bodies(Access access);                                   // shape, pose, motion, friction
+std::vector<Port> bodies(Access access, Usage usage = Usage::storage);     // shape, pose, motion, friction
 std::vector<Port> key_frames(Access access);                               // of all bodies, one after another
 Port body(const char* name, Access access, Usage usage = Usage::storage);  // one of them
 
+// Of lists that are made as invocations come.
+Port unrepeatable(Port port);
 // Only where the choice parameter has this value.
 Port when(Port port, const char* parameter, const char* value);
 
@@ -65,6 +89,8 @@ std::vector<Port> joined(std::initializer_list<std::vector<Port>> lists);
 std::vector<graph::Work> over_nodes(const std::string& kernel);
 // The ports that over_nodes needs besides.
 std::vector<Port> node_choice_ports();
+// The ports that finding the nodes about a particle needs besides, by the parameter `nodes` (shaders/lib/stencil_rows.glsl).
+std::vector<Port> stencil_ports();
 // A dispatch with one invocation per particle and node of its stencil, by the parameter `kernel`.
 std::vector<graph::Work> over_particles_and_nodes(const std::string& kernel);
 

@@ -17,11 +17,12 @@
 #include "stages/heightfield/underside.h"
 #include "stages/io/frames.h"
 #include "stages/io/video.h"
-#include "stages/mpm/active_blocks.h"
 #include "stages/mpm/advect.h"
 #include "stages/mpm/clear_grid.h"
 #include "stages/mpm/deform.h"
+#include "stages/mpm/deform_stress.h"
 #include "stages/mpm/gather_to_grid.h"
+#include "stages/mpm/gather_velocities.h"
 #include "stages/mpm/grid_collide.h"
 #include "stages/mpm/grid_forces.h"
 #include "stages/mpm/grid_to_particles.h"
@@ -59,11 +60,12 @@ graph::Registry all_stages(const std::shared_ptr<const Problem>& problem) {
   registry.add(heightfield::underside());
   registry.add(io::frames(), io::writing_frames(problem));
   registry.add(io::video(), io::writing_video(problem));
-  registry.add(mpm::active_blocks_stage());
   registry.add(mpm::advect());
   registry.add(mpm::clear_grid());
   registry.add(mpm::deform());
+  registry.add(mpm::deform_stress());
   registry.add(mpm::gather_to_grid());
+  registry.add(mpm::gather_velocities());
   registry.add(mpm::grid_collide());
   registry.add(mpm::grid_forces());
   registry.add(mpm::grid_to_particles());

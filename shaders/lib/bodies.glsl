@@ -4,17 +4,17 @@
 // 3 capsule (size.x: radius, size.y: half the length of its axis, along local y).
 #include "lib/turn.glsl"
 
-// Signed distance to the surface (negative inside) in w, outward unit normal in xyz.
+// Signed distance to the surface (negative inside) in w, outward unit normal in the body's own axes in xyz.
 vec4 body_surface(int b, vec3 x) {
-  vec4 q = body_orientation[b];
-  vec3 local = turned_back(q, x - body_position[b]);
-  vec3 size = body_size[b].xyz;
+  int kind = body_kind_at(b);
+  vec3 local = turned_back(body_orientation_at(b), x - body_position_at(b));
+  vec3 size = body_size_at(b).xyz;
   vec4 surface = vec4(0.0, 1.0, 0.0, local.y);
-  if (body_kind[b] == 1 || body_kind[b] == 3) {
-    vec3 from = body_kind[b] == 1 ? local : local - vec3(0.0, clamp(local.y, -size.y, size.y), 0.0);
+  if (kind == 1 || kind == 3) {
+    vec3 from = kind == 1 ? local : local - vec3(0.0, clamp(local.y, -size.y, size.y), 0.0);
     float distance = length(from);
     surface = vec4(distance > 0.0 ? from / distance : vec3(0.0, 1.0, 0.0), distance - size.x);
-  } else if (body_kind[b] == 2) {
+  } else if (kind == 2) {
     vec3 beyond = abs(local) - size;
     vec3 outside = max(beyond, 0.0);
     vec3 side = vec3(local.x < 0.0 ? -1.0 : 1.0, local.y < 0.0 ? -1.0 : 1.0, local.z < 0.0 ? -1.0 : 1.0);
@@ -27,24 +27,24 @@ vec4 body_surface(int b, vec3 x) {
       surface = vec4(side * face, depth);
     }
   }
-  return vec4(turned(q, surface.xyz), surface.w);
+  return surface;
 }
 
-vec3 body_velocity_at(int b, vec3 x) { return body_velocity[b] + cross(body_spin[b], x - body_position[b]); }
+vec3 carried_by_body(int b, vec3 x) { return body_velocity_at(b) + cross(body_spin_at(b), x - body_position_at(b)); }
 
 // The velocity v of a point x after all bodies that it lies in have acted on it, in their order.
 vec3 collided(vec3 v, vec3 x) {
   for (int b = 0; b < int(bodies_count); ++b) {
     vec4 surface = body_surface(b, x);
     if (surface.w > 0.0) continue;
-    vec3 n = surface.xyz;
-    vec3 carried = body_velocity_at(b, x);
+    vec3 n = turned(body_orientation_at(b), surface.xyz);
+    vec3 carried = carried_by_body(b, x);
     vec3 relative = v - carried;
     float normal_speed = dot(relative, n);
     if (normal_speed >= 0.0) continue;
     vec3 tangential = relative - n * normal_speed;
     float tangential_speed = length(tangential);
-    float hold = -body_friction[b] * normal_speed;
+    float hold = -body_friction_at(b) * normal_speed;
     v = carried + (tangential_speed <= hold ? vec3(0.0) : tangential * (1.0 - hold / tangential_speed));
   }
   return v;

@@ -36,18 +36,62 @@ float spline_slope(float u) {
 #endif
 }
 
-// The same for all nodes of one axis at once; u of the lowest node. Component 3 is 0 for the quadratic kernel.
+// The same for four u at once, without branches.
+vec4 spline(vec4 u) {
+#if KERNEL_CUBIC
+  vec4 far = max(2.0 - abs(u), 0.0), near = max(1.0 - abs(u), 0.0);
+  return (far * far * far - 4.0 * near * near * near) / 6.0;
+#else
+  vec4 far = max(1.5 - abs(u), 0.0), near = max(0.5 - abs(u), 0.0);
+  return 0.5 * far * far - 1.5 * near * near;
+#endif
+}
+vec4 spline_slope(vec4 u) {
+#if KERNEL_CUBIC
+  vec4 far = max(2.0 - abs(u), 0.0), near = max(1.0 - abs(u), 0.0);
+  vec4 size = 0.5 * far * far - 2.0 * near * near;
+#else
+  vec4 size = max(1.5 - abs(u), 0.0) - 3.0 * max(0.5 - abs(u), 0.0);
+#endif
+  return uintBitsToFloat(floatBitsToUint(size) ^ ~floatBitsToUint(u) & 0x80000000u);  // falls where u is positive
+}
+
+// N and N' where x_p = x_i + (offset + f) h, offset -2, -1, 0 or 1 and f within [0, 1]: what many particles of one cell have in common is
+// worked out first. Cubic: the coefficients of 1, f, f^2, f^3.
+vec4 spline_piece(int offset) {
+#if KERNEL_CUBIC
+  return offset == -2   ? vec4(0.0, 0.0, 0.0, 1.0) / 6.0
+         : offset == -1 ? vec4(1.0, 3.0, 3.0, -3.0) / 6.0
+         : offset == 0  ? vec4(4.0, 0.0, -6.0, 3.0) / 6.0
+                        : vec4(1.0, -3.0, 3.0, -1.0) / 6.0;
+#else
+  return vec4(offset);
+#endif
+}
+vec2 spline_and_slope(vec4 piece, float f) {
+#if KERNEL_CUBIC
+  return vec2(((piece.w * f + piece.z) * f + piece.y) * f + piece.x, (3.0 * piece.w * f + 2.0 * piece.z) * f + piece.y);
+#else
+  return vec2(spline(piece.x + f), spline_slope(piece.x + f));
+#endif
+}
+
+// The same for all nodes of one axis at once; u of the lowest node, in [1, 2] (quadratic: [0.5, 1.5]) as stencil_base gives it. Component 3 is 0
+// for the quadratic kernel.
 vec4 spline4(float u) {
 #if KERNEL_CUBIC
-  return vec4(spline(u), spline(u - 1.0), spline(u - 2.0), spline(u - 3.0));
+  float f = u - 1.0, g = 2.0 - u;
+  return vec4(g * g * g / 6.0, (0.5 * f - 1.0) * f * f + 2.0 / 3.0, (0.5 * g - 1.0) * g * g + 2.0 / 3.0, f * f * f / 6.0);
 #else
-  return vec4(spline(u), spline(u - 1.0), spline(u - 2.0), 0.0);
+  float f = u - 0.5, g = 1.5 - u, c = u - 1.0;
+  return vec4(0.5 * g * g, 0.75 - c * c, 0.5 * f * f, 0.0);
 #endif
 }
 vec4 spline_slope4(float u) {
 #if KERNEL_CUBIC
-  return vec4(spline_slope(u), spline_slope(u - 1.0), spline_slope(u - 2.0), spline_slope(u - 3.0));
+  float f = u - 1.0, g = 2.0 - u;
+  return vec4(-0.5 * g * g, (1.5 * f - 2.0) * f, (2.0 - 1.5 * g) * g, 0.5 * f * f);
 #else
-  return vec4(spline_slope(u), spline_slope(u - 1.0), spline_slope(u - 2.0), 0.0);
+  return vec4(u - 1.5, 2.0 - 2.0 * u, u - 0.5, 0.0);
 #endif
 }

@@ -6,10 +6,8 @@ vec2 hardened_lame(vec4 elastic_parameters, float plastic_determinant) {
 }
 
 // P FE^T = 2 mu (FE - RE) FE^T + lambda (J - 1) J, in Pa: V0 times this is what grid forces are made of.
-mat3 kirchhoff_stress(mat3 fe, vec2 lame) {
-  mat3 u, v;
-  vec3 s;
-  svd(fe, u, s, v);
+// u, s: left singular vectors and singular values of fe.
+mat3 kirchhoff_stress(mat3 fe, mat3 u, vec3 s, vec2 lame) {
   // Strains d = S - 1 from F F^T - 1, whose entries are small where F is near the identity: S itself is known only to rounding of 1, and the
   // stress is what remains of it.
   mat3 e = fe - mat3(1.0);
@@ -20,4 +18,10 @@ mat3 kirchhoff_stress(mat3 fe, vec2 lame) {
   // In the frame of U everything is diagonal: (FE - RE) FE^T = U d S U^T.
   vec3 principal = 2.0 * lame.x * d * (d + 1.0) + lame.y * volume_change * (volume_change + 1.0);
   return mat3(u[0] * principal.x, u[1] * principal.y, u[2] * principal.z) * transpose(u);
+}
+mat3 kirchhoff_stress(mat3 fe, vec2 lame) {
+  mat3 u, v;
+  vec3 s;
+  svd(fe, u, s, v);
+  return kirchhoff_stress(fe, u, s, lame);
 }

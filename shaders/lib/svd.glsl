@@ -31,14 +31,14 @@ void jacobi(int axis, inout float pp, inout float qq, inout float pq, inout floa
   pk = c * old - s * qk;
   qk = s * old + c * qk;
   float half_cosine = sqrt(0.5 + 0.5 * c);
-  rotation = normalize(product(rotation, turn(axis, -0.5 * s / half_cosine, half_cosine)));
+  rotation = product(rotation, turn(axis, -0.5 * s / half_cosine, half_cosine));
 }
 
 // The rotation that turns (a, b) onto (+, 0).
 vec4 givens_turn(int axis, float a, float b) {
   float rho = sqrt(a * a + b * b);
   float cosine = abs(a) + max(rho, 1.0e-18);
-  float sine = rho > 1.0e-18 ? b : 0.0;
+  float sine = abs(b) > 1.0e-12 ? b : 0.0;  // below rounding of F, whose size is 1; and denormal numbers would follow, which are slow
   float scale = inversesqrt(cosine * cosine + sine * sine);
   return a < 0.0 && rho > 1.0e-18 ? turn(axis, cosine * scale, sine * scale) : turn(axis, sine * scale, cosine * scale);
 }
@@ -62,15 +62,18 @@ void svd(mat3 f, out mat3 u, out vec3 s, out mat3 v) {
 
   // Every sweep starts from F V anew: rotating F^T F alone loses the small singular values of rank-2 matrices.
   vec4 right = vec4(0.0, 0.0, 0.0, 1.0);
+  const float small = 1.0e-14;
   for (int sweep = 0; sweep < 4; ++sweep) {
     mat3 fv = f * rotation_matrix(right);
     float xx = dot(fv[0], fv[0]), yy = dot(fv[1], fv[1]), zz = dot(fv[2], fv[2]);
     float xy = dot(fv[0], fv[1]), yz = dot(fv[1], fv[2]), zx = dot(fv[2], fv[0]);
+    if (xy * xy <= small * xx * yy && yz * yz <= small * yy * zz && zx * zx <= small * zz * xx) break;
     jacobi(2, xx, yy, xy, zx, yz, right);
     jacobi(1, zz, xx, zx, yz, xy, right);
     jacobi(0, yy, zz, yz, xy, zx, right);
+    right = renormalized(right);
   }
-  v = rotation_matrix(renormalized(right));
+  v = rotation_matrix(right);
   mat3 b = f * v;
   order_columns(b, v, 0, 1);
   order_columns(b, v, 0, 2);

@@ -1,11 +1,15 @@
-// Particles in sorted order, packed for reading: (position, stress yz), (velocity, stress xx), (stress yy, zz, xy, xz); mass apart.
+// Particles in sorted order, packed for reading: (position in the block, mass, stress yz), (velocity, stress xx), (stress yy, zz, xy, xz).
+#include "lib/blocks.glsl"
+#include "lib/packed_position.glsl"
+
 void main() {
   uint slot = element_index();
   if (slot >= particles_count) return;
-  uint particle = order[slot];
-  mat3 s = stress[particle];
-  packed_state[3u * slot] = vec4(position[particle], s[1][2]);
-  packed_state[3u * slot + 1u] = vec4(velocity[particle], s[0][0]);
-  packed_state[3u * slot + 2u] = vec4(s[1][1], s[2][2], s[0][1], s[0][2]);
-  packed_mass[slot] = mass[particle];
+  int particle = int(order_at(int(slot)));
+  vec3 x = position_at(particle);
+  mat3 s = stress_at(particle);
+  ivec3 lowest = 4 * block_of_cell(cell_of(x)) - 2;
+  packed_particles[3u * slot] = uvec4(packed_position(grid_coordinates(x) - vec3(lowest)), floatBitsToUint(vec2(mass_at(particle), s[1][2])));
+  packed_particles[3u * slot + 1u] = floatBitsToUint(vec4(velocity_at(particle), s[0][0]));
+  packed_particles[3u * slot + 2u] = floatBitsToUint(vec4(s[1][1], s[2][2], s[0][1], s[0][2]));
 }

@@ -1,11 +1,12 @@
 // Mass, momentum and force of a node, gathered from the particles of the 4 x 4 x 4 cells about it [M 3.4 steps 1, 3]. Rows of cells hold
 // their particles one after another, so there are 16 runs to read. No atomics: the order of the sum is fixed.
-#include "lib/active_node.glsl"
+#include "lib/grid.glsl"
 #include "lib/bspline.glsl"
 
 void main() {
-  ivec3 node;
-  if (!active_node(node)) return;
+  uint i = element_index();
+  if (i >= nodes_count) return;
+  ivec3 node = node_of(i);
   ivec3 low = max(node - 2, ivec3(0)), high = min(node + 1, grid_nodes - 2);
   float mass_here = 0.0;
   vec3 momentum = vec3(0.0), force = vec3(0.0);
@@ -16,18 +17,16 @@ void main() {
       int first = int(cell_start_at(node_index(ivec3(low.x, y, z))));
       int end = int(cell_start_at(node_index(ivec3(high.x + 1, y, z))));
       for (int slot = first; slot < end; ++slot) {
-        vec4 a = packed_state_at(3 * slot), b = packed_state_at(3 * slot + 1), c = packed_state_at(3 * slot + 2);
-        vec3 u = a.xyz * per_cell + offset;
+        int particle = int(order_at(slot));
+        vec3 u = position_at(particle) * per_cell + offset;
         vec3 w = vec3(spline(u.x), spline(u.y), spline(u.z));
         vec3 gradient = vec3(spline_slope(u.x) * w.y * w.z, w.x * spline_slope(u.y) * w.z, w.x * w.y * spline_slope(u.z));
-        float m = packed_mass_at(slot) * w.x * w.y * w.z;
+        float m = mass_at(particle) * w.x * w.y * w.z;
         mass_here += m;
-        momentum += m * b.xyz;
-        force -= vec3(b.w * gradient.x + c.z * gradient.y + c.w * gradient.z, c.z * gradient.x + c.x * gradient.y + a.w * gradient.z,
-                      c.w * gradient.x + a.w * gradient.y + c.y * gradient.z);
+        momentum += m * velocity_at(particle);
+        force -= stress_at(particle) * gradient;
       }
     }
-  int i = node_index(node);
   grid_mass_sum[i] = mass_here;
   grid_momentum_sum[i] = momentum;
   grid_force_sum[i] = force * per_cell;

@@ -4,7 +4,7 @@
 
 void main() {
   ivec3 node;
-  if (!active_node(node)) return;
-  int i = node_index(node);
+  int i;
+  if (!active_node(node, i)) return;
   if (grid_mass[i] > 0.0) grid_velocity[i] = collided(grid_velocity[i], node_position(node));
 }

@@ -1,13 +1,11 @@
 // v_i = (m v)_i / m_i and v_i* = v_i + dt (f_i / m_i + g) [M 3.4 step 4]; nodes without mass stay at rest.
-#include "lib/active_node.glsl"
 #if ACCUMULATE_FIXED
 #include "lib/force_scale.glsl"
 #endif
 
 void main() {
-  ivec3 node;
-  if (!active_node(node)) return;
-  int i = node_index(node);
+  uint i = element_index();
+  if (i >= nodes_count) return;
 #if ACCUMULATE_FIXED
   float mass_here = float(grid_mass_sum[i]) / mass_scale;
   vec3 momentum = vec3(grid_momentum_sum[i]) / momentum_scale;

@@ -4,5 +4,5 @@
 void main() {
   uint particle = element_index();
   if (particle >= particles_count) return;
-  velocity[particle] = collided(velocity[particle], position[particle]);
+  velocity[particle] = collided(velocity[particle], position_at(int(particle)));
 }

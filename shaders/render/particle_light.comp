@@ -8,21 +8,19 @@
 #endif
 #if HAS_GRID_MASS
 #define KERNEL_CUBIC 0
-#include "lib/grid.glsl"
-#include "lib/bspline.glsl"
+#include "lib/stencil_rows.glsl"
 
 // Density of snow in w, its gradient in xyz, from the mass of the grid's nodes.
-vec4 density_about(vec3 position) {
-  vec3 x = grid_coordinates(position);
-  ivec3 base = clamp(stencil_base(x), ivec3(0), grid_nodes - stencil_width);
-  vec3 u = x - vec3(base);
+vec4 density_about(uint particle, vec3 position) {
+  Stencil stencil = stencil_of(particle, position);
+  vec3 u = stencil.u;
   vec4 wx = spline4(u.x), wy = spline4(u.y), wz = spline4(u.z);
   vec4 dx = spline_slope4(u.x), dy = spline_slope4(u.y), dz = spline_slope4(u.z);
   vec4 sum = vec4(0.0);
   for (int k = 0; k < stencil_width; ++k)
     for (int j = 0; j < stencil_width; ++j) {
-      int row = node_index(base + ivec3(0, j, k));
-      vec3 mass = vec3(grid_mass_at(row), grid_mass_at(row + 1), grid_mass_at(row + 2));
+      StencilRow row = stencil_row(stencil, j, k);
+      vec3 mass = vec3(grid_mass_at(stored_node(row, 0)), grid_mass_at(stored_node(row, 1)), grid_mass_at(stored_node(row, 2)));
       float along = dot(wx.xyz, mass);
       sum += vec4(dot(dx.xyz, mass) * wy[j] * wz[k], along * dy[j] * wz[k], along * wy[j] * dz[k], along * wy[j] * wz[k]);
     }
@@ -63,7 +61,7 @@ void main() {
   vec3 normal = vec3(0.0);
   float open = 1.0, shown = 1.0;
 #if HAS_GRID_MASS
-  vec4 density = density_about(x);
+  vec4 density = density_about(index, x);
   // Where density falls off within a cell or two there is a surface; deep inside there is none.
   normal = -density.xyz * grid_cell / max(density.w, 0.05 * look.w);
   float steepness = length(normal);

@@ -5,14 +5,14 @@
 namespace firn::stages::mpm {
 
 graph::StageSpec grid_collide() {
-  return {
-      .name = "mpm.grid_collide",
-      .doc = "Rigid bodies act on the nodes inside them, with friction",
-      .equation = "[M 4.4, 3.4 step 5]",
-      .ports = joined({{grid_mass(Access::read), grid_velocity(Access::read_write)}, bodies(Access::read), node_choice_ports()}),
-      .parameters = {nodes_parameter()},
-      .constants = {"grid_min", "grid_cell", "grid_nodes"},
-      .work = over_nodes("mpm/grid_collide.comp")};
+  return {.name = "mpm.grid_collide",
+          .doc = "Rigid bodies act on the nodes inside them, with friction",
+          .equation = "[M 4.4, 3.4 step 5]",
+          .ports = joined({by_nodes(grid_mass, Access::read), by_nodes(grid_velocity, Access::read_write),
+                           bodies(Access::read, Usage::sampled), node_choice_ports()}),
+          .parameters = {nodes_parameter()},
+          .constants = {"grid_min", "grid_cell", "grid_nodes"},
+          .work = over_nodes("mpm/grid_collide.comp")};
 }
 
 }  // namespace firn::stages::mpm

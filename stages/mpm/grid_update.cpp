@@ -10,11 +10,10 @@ graph::StageSpec grid_update() {
           .equation = "[M 3.4 step 4]",
           .ports = joined({grid_sums(Access::read, Access::read),
                            {stress_max(Access::read), grid_mass(Access::write), grid_velocity_before(Access::write),
-                            grid_velocity(Access::write)},
-                           node_choice_ports()}),
-          .parameters = {accumulate_parameter(), nodes_parameter()},
+                            grid_velocity(Access::write)}}),
+          .parameters = {accumulate_parameter()},
           .constants = {"grid_min", "grid_cell", "grid_nodes", "mass_scale", "momentum_scale", "crowd", "gravity"},
-          .work = over_nodes("mpm/grid_update.comp")};
+          .work = {graph::Dispatch{.kernel = "mpm/grid_update.comp", .over = "nodes"}}};
 }
 
 }  // namespace firn::stages::mpm

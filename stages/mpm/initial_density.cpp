@@ -8,9 +8,11 @@ graph::StageSpec initial_density() {
   return {.name = "mpm.initial_density",
           .doc = "Density about every particle from the mass of the nodes, and from it the volume of the particle",
           .equation = "[M 3.4 step 2]",
-          .ports = {position(Access::read), mass(Access::read), grid_mass(Access::read), density(Access::write),
-                    volume(Access::read_write)},
-          .parameters = {kernel_parameter()},
+          .ports = joined({{position(Access::read), mass(Access::read)},
+                           by_nodes(grid_mass, Access::read),
+                           stencil_ports(),
+                           {density(Access::write), volume(Access::read_write)}}),
+          .parameters = {kernel_parameter(), nodes_parameter()},
           .constants = {"grid_min", "grid_cell", "grid_nodes"},
           .work = {graph::Dispatch{.kernel = "mpm/initial_density.comp", .over = "particles"}}};
 }

@@ -30,6 +30,7 @@ class Coloring final : public graph::HostStage {
 
 std::vector<ParameterSpec> parameters() {
   return {view::exposure_parameter(),
+          mpm::nodes_parameter(),
           {.name = "detail",
            .kind = ParameterKind::choice,
            .initial = std::string("grains"),
@@ -63,6 +64,13 @@ std::vector<ParameterSpec> parameters() {
            .doc = "1 - J_P at the red end of the scale, and where snow looks icy"}};
 }
 
+// The mass of nodes, where the pipeline has a grid, and where nodes are stored.
+std::vector<Port> masses() {
+  std::vector<Port> ports = mpm::joined({mpm::by_nodes(mpm::grid_mass, graph::Access::read, Usage::sampled), mpm::stencil_ports()});
+  for (Port& port : ports) port.optional = true;
+  return ports;
+}
+
 }  // namespace
 
 // A kernel finds what light there is at every particle; the draw gives it to grains.
@@ -81,6 +89,7 @@ graph::StageSpec particles() {
   std::vector<graph::PortUse> of_light =
       view::sampled({"position", "material", "plastic_det", "velocity", "material_look", "grid_mass", "shadow_map", "body_kind",
                      "body_size", "body_position", "body_orientation"});
+  for (const char* name : {"particle_cell", "block_slot", "block_near"}) of_light.push_back({name, read, Usage::storage});
   of_light.push_back({"particle_surface", write, Usage::storage});
   of_light.push_back({"particle_color", write, Usage::storage});
   of_light.push_back({"particle_shown", write, Usage::storage});
@@ -103,11 +112,12 @@ graph::StageSpec particles() {
       .ports = mpm::joined(
           {{view::image(read_write, Usage::framebuffer), view::image_depth(read_write), mpm::position(read, Usage::sampled),
             mpm::volume(read, Usage::sampled), mpm::material(read, Usage::sampled), view::optional(mpm::plastic_det(read)),
-            view::optional(mpm::velocity(read)), view::optional(mpm::grid_mass(read)), view::optional_shadow_map(), look,
+            view::optional(mpm::velocity(read)), view::optional_shadow_map(), look,
             own("particle_surface", "outward normal of the snow about particles, 0 inside; share of the sun that arrives"),
             own("particle_color", "linear colour of particles; share of the sky that they see"),
             own("particle_shown", "share of its grains that a particle shows: none but the core inside snow", ElementType::float1)},
-           view::optional_shapes()}),
+           masses(),
+         view::optional_shapes()}),
       .parameters = parameters(),
       .constants = constants,
       .work = {graph::HostWork{.uses = {{"material_look", write, Usage::host}}},

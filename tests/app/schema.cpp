@@ -113,7 +113,7 @@ doc: everything
 seed: 2
 time: {dt: auto, cfl: 0.3, fps: 30, end: 1}
 gravity: [0, -9.81, 0]
-domain: {min: [0, 0, 0], max: [3, 3, 3], cell: 0.1}
+domain: {min: [0, 0, 0], max: [3, 3, 3], cell: 0.1, blocks: 5000}
 materials:
   own: {preset: packed, density: 400, young: 1.0e5, poisson: 0.3, hardening: 10, critical_compression: 0.02, critical_stretch: 0.005,
         min_density: 30, max_density: 500, slope: 0.6, color: [1, 1, 1]}

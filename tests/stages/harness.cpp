@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "app/arrays.h"
+#include "stages/mpm_ports.h"
 
 namespace firn::test {
 namespace {
@@ -76,13 +77,11 @@ graph::Environment grid_environment(const GridSetup& setup) {
   const auto count = [](std::uint64_t n) { return graph::DomainSize{n}; };
   const auto [nx, ny, nz] = setup.nodes;
   const auto n = [](int value) { return static_cast<std::uint64_t>(value); };
-  result.domains = {{"particles", count(setup.particles)},
-                    {"materials", count(setup.materials)},
-                    {"bodies", count(setup.bodies)},
-                    {"key_frames", count(setup.key_frames)},
-                    {"nodes", count(n(nx) * n(ny) * n(nz))},
-                    {"grid_rows", count(n(ny) * n(nz))},
-                    {"grid_blocks", count(n((nx + 3) / 4) * n((ny + 3) / 4) * n((nz + 3) / 4))}};
+  const stages::mpm::BlockRoom room = stages::mpm::block_room(setup.nodes, setup.particles);
+  result.domains = {{"particles", count(setup.particles)},   {"materials", count(setup.materials)},
+                    {"bodies", count(setup.bodies)},         {"key_frames", count(setup.key_frames)},
+                    {"nodes", count(n(nx) * n(ny) * n(nz))}, {"grid_rows", count(n(ny) * n(nz))},
+                    {"grid_blocks", count(room.blocks)},     {"block_table", count(room.table)}};
   const auto scale = [](double bound) { return std::exp2(std::floor(std::log2(2147483647.0 / bound))); };
   result.constants = {{"grid_min", ElementType::vec3, setup.grid_min, "m", ""},
                       {"grid_cell", ElementType::float1, setup.cell, "m", ""},

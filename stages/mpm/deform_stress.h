@@ -4,6 +4,6 @@
 
 namespace firn::stages::mpm {
 
-graph::StageSpec active_blocks_stage();
+graph::StageSpec deform_stress();
 
 }  // namespace firn::stages::mpm
