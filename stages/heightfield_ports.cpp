@@ -65,6 +65,8 @@ Port port(const char* name, Access access, Usage usage) {
       {"active_tiles", uint1, "tiles", "1", "tiles of 16 x 16 cells that bodies are over, or were in the last step"},
       {"active_tile_groups", uint1, "3", "1", "size of a dispatch with one group per active tile"},
   };
+  // Made as invocations come.
+  constexpr std::string_view lists[] = {"covered", "leaving", "flatten_tiles", "active_tiles"};
   for (const Facts& facts : table)
     if (std::string_view(name) == facts.name)
       return {.name = facts.name,
@@ -73,7 +75,8 @@ Port port(const char* name, Access access, Usage usage) {
               .access = access,
               .usage = usage,
               .unit = facts.unit,
-              .doc = facts.doc};
+              .doc = facts.doc,
+              .repeatable = std::ranges::find(lists, facts.name) == std::end(lists)};
   throw std::logic_error(std::string("no port of the height field is called ") + name);
 }
 
