@@ -108,7 +108,9 @@ std::string for_bash(const std::vector<Verb>& verbs) {
 }
 
 std::string for_zsh(const std::vector<Verb>& verbs) {
-  return "#compdef firn\nautoload -U +X bashcompinit && bashcompinit\n" + for_bash(verbs);
+  // A file in $fpath is read when the first words are to be completed, which then are still to be.
+  return "#compdef firn\nautoload -U +X bashcompinit && bashcompinit\n" + for_bash(verbs) +
+         "if [[ ${zsh_eval_context[-1]} == loadautofunc ]]; then _bash_complete -o filenames -F _firn; fi\n";
 }
 
 std::string for_fish(const std::vector<Verb>& verbs) {
@@ -126,7 +128,7 @@ std::string for_fish(const std::vector<Verb>& verbs) {
       std::string line = here;
       for (const std::string& name : one.names) line += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
       if (!one.doc.empty() && !one.names.empty()) line += " -d " + fish_quoted(one.doc);
-      if (one.takes_value && !one.names.empty()) line += " -r";
+      if (one.takes_value && !one.names.empty()) line += one.files ? " -r" : " -x";
       if (one.files) line += " -F";
       if (!one.values.empty()) line += " -a " + fish_quoted(fmt::format("{}", fmt::join(one.values, " ")));
       if (line != here) text += line + "\n";

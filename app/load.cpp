@@ -16,6 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Names that are too long, and circles of links, are no files either.
+bool exists(const std::string& name) {
+  std::error_code error;
+  return fs::exists(name, error);
+}
+
 stages::Image read_image_size(const std::string& text, config::Diagnostics& diagnostics) {
   stages::Image image;
   char rest = 0;
@@ -56,11 +62,12 @@ std::vector<std::pair<std::string, config::Node>> read_replacements(const std::v
 
 // Memory is told before it is taken: particles on the host while they are sampled, and their state on the device. What a pipeline's
 // grid takes is known once it is planned.
-void check_memory(const scene::Scene& scene, config::Diagnostics& diagnostics) {
+void check_memory(const scene::Scene& scene, double allowed, config::Diagnostics& diagnostics) {
   constexpr double per_particle = 64 + 64 + 400;  // bytes: sampling, scene and upload, the pipelines' buffers
   const double particles = static_cast<double>(scene::estimate_particles(scene));
   const double needed = particles * per_particle;
-  const double there = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double there =
+      allowed > 0 ? allowed : static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   if (needed <= there) return;
   constexpr double gib = 1 << 30;
   diagnostics.error(
@@ -100,7 +107,7 @@ std::vector<config::Override> read_overrides(const std::vector<std::string>& wor
 
 std::shared_ptr<const stages::Problem> load_problem(const std::string& file, const std::vector<config::Override>& changes,
                                                     stages::Image image, const std::string& output, config::Node& node,
-                                                    config::Diagnostics& diagnostics) {
+                                                    config::Diagnostics& diagnostics, double memory) {
   config::Diagnostics of_scene;
   std::shared_ptr<const stages::Problem> problem;
   node = config::load(file, of_scene);
@@ -109,7 +116,7 @@ std::shared_ptr<const stages::Problem> load_problem(const std::string& file, con
       if (change.path.front() == "scene")
         config::apply_override(node, {change.path.begin() + 1, change.path.end()}, change.value, change.place, of_scene);
     scene::Scene scene = scene::read_scene(node, of_scene);
-    if (!of_scene.has_errors()) check_memory(scene, of_scene);
+    if (!of_scene.has_errors()) check_memory(scene, memory, of_scene);
     if (!of_scene.has_errors()) problem = stages::make_problem(std::move(scene), image, output);
   }
   diagnostics.append(of_scene);
@@ -153,10 +160,10 @@ std::vector<fs::path> shader_folders() {
 }
 
 std::string find_input(const std::string& name, const std::string& folder) {
-  if (fs::exists(name)) return name;
+  if (exists(name)) return name;
   for (const fs::path& data : data_folders())
     for (const fs::path& candidate : {data / name, data / folder / name, data / folder / (name + ".yaml")})
-      if (fs::is_regular_file(candidate)) return candidate.string();
+      if (std::error_code error; fs::is_regular_file(candidate, error)) return candidate.string();
   return name;
 }
 
@@ -174,7 +181,7 @@ Loaded load(const Inputs& inputs, const std::string& output) {
   const stages::Image image = read_image_size(inputs.image, diagnostics);
 
   loaded.pipeline_file = find_input(inputs.pipeline, "pipelines");
-  if (fs::exists(loaded.pipeline_file))
+  if (exists(loaded.pipeline_file))
     loaded.pipeline = graph::load_pipeline(loaded.pipeline_file, edits, diagnostics);
   else
     diagnostics.error({inputs.pipeline, 0, 0}, "there is no such file" + suggest_file(inputs.pipeline, shipped_pipelines()));
@@ -182,12 +189,12 @@ Loaded load(const Inputs& inputs, const std::string& output) {
 
   std::shared_ptr<const stages::Problem> problem;
   if (!loaded.scene_file.empty()) {
-    if (inputs.scene.empty() && !fs::exists(loaded.scene_file)) {
+    if (inputs.scene.empty() && !exists(loaded.scene_file)) {
       diagnostics.error(loaded.pipeline.scene_place, fmt::format("no such scene file: '{}'", loaded.scene_file));
-    } else if (!fs::exists(loaded.scene_file)) {
+    } else if (!exists(loaded.scene_file)) {
       diagnostics.error({inputs.scene, 0, 0}, "there is no such file" + suggest_file(inputs.scene, shipped_scenes()));
     } else {
-      problem = load_problem(loaded.scene_file, edits.set, image, output, loaded.scene_node, diagnostics);
+      problem = load_problem(loaded.scene_file, edits.set, image, output, loaded.scene_node, diagnostics, inputs.memory);
     }
   } else if (!loaded.pipeline.file.empty() && !diagnostics.has_errors()) {
     diagnostics.error({loaded.pipeline_file, 0, 0},

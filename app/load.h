@@ -21,6 +21,7 @@ struct Inputs {
   std::vector<std::string> keep;  // buffers whose contents are wanted after a step, as dumps are
   bool share_memory = true;
   std::string repeats = "auto";  // who finds their ends: host, device; auto: see plan_for()
+  double memory = 0;             // bytes that particles and grid may take; 0: what this machine has
 };
 // The options of `inputs`, the same for every verb that takes a pipeline.
 void add_inputs(CLI::App& verb, Inputs& inputs);
@@ -44,10 +45,10 @@ void plan_for(Loaded& loaded, const Inputs& inputs, bool software);
 
 // The parts of load() that other verbs need by themselves; errors go to `diagnostics`.
 std::vector<config::Override> read_overrides(const std::vector<std::string>& words, config::Diagnostics& diagnostics);  // --set
-// The scene of a file with those of `changes` that begin with "scene"; nothing where anything is wrong with it.
+// The scene of a file with those of `changes` that begin with "scene"; nothing where anything is wrong with it. `memory`: as above.
 std::shared_ptr<const stages::Problem> load_problem(const std::string& file, const std::vector<config::Override>& changes,
                                                     stages::Image image, const std::string& output, config::Node& node,
-                                                    config::Diagnostics& diagnostics);
+                                                    config::Diagnostics& diagnostics, double memory = 0);
 // A scene that any pipeline can be checked against when its own is wrong, so that the errors of both are told at once. Nothing in
 // it but that every domain and constant has a value.
 scene::Scene nominal_scene();

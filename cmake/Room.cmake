@@ -8,6 +8,14 @@ function(firn_options target)
     target_compile_options(${target} PUBLIC -fsanitize=address,undefined -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=address,undefined)
   endif()
+  if(FIRN_FUZZ)
+    target_compile_options(${target} PUBLIC -fsanitize=address,undefined -fno-sanitize-recover=undefined)
+    # The specs of all stages are made anew for every input; counting their branches would only take time.
+    if(NOT ${target} STREQUAL firn_stages)
+      target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
+    endif()
+    target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+  endif()
 endfunction()
 
 # firn_room(folder LINK libraries...): one folder of the house as a static library, firn_<folder>.

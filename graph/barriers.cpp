@@ -1,11 +1,11 @@
 #include "graph/barriers.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <functional>
 #include <utility>
+
+#include "graph/barrier_needs.h"
 
 namespace firn::graph {
 namespace {
@@ -33,12 +33,6 @@ struct BufferState {
   Bits stale_accumulated = 0;  // the same after accumulation
   Bits unordered = 0;          // write bits at which earlier accesses have not been waited for yet
   Bits unordered_accumulated = 0;
-  struct Last {
-    int stage = -1;
-    Access access = Access::read;
-    int buffer = -1;
-  };
-  Last written, accessed;  // for the reasons only
 
   void clear(Bits bits) {
     stale &= ~bits;
@@ -66,8 +60,6 @@ struct State {
       mine.stale_accumulated |= theirs.stale_accumulated;
       mine.unordered |= theirs.unordered;
       mine.unordered_accumulated |= theirs.unordered_accumulated;
-      if (mine.written.stage < 0) mine.written = theirs.written;
-      if (mine.accessed.stage < 0) mine.accessed = theirs.accessed;
       grown |= before != mine.hazards();
     }
     return grown;
@@ -99,12 +91,13 @@ class Placement {
 
     // The first step and frame, a frame drawn again, a step after a frame.
     for (std::vector<Op>* phase : {&plan_.setup, &plan_.frame})
-      for (const std::vector<Op>* next : {&plan_.step, &plan_.frame}) close(*phase, missing(*next, after(*phase, clean())).bits);
+      for (const std::vector<Op>* next : {&plan_.step, &plan_.frame}) close(*phase, missing(*next, after(*phase, clean())));
 
     // Barriers that came later can make earlier ones superfluous, round a loop or where a phase was closed. Steps come first: they
     // run most.
-    for (std::vector<Op>* phase : {&plan_.step, &plan_.frame, &plan_.setup}) drop_needless_bits(*phase);
-    for (std::vector<Op>* phase : {&plan_.step, &plan_.frame, &plan_.setup}) give_reasons(*phase);
+    drop_needless_bits();
+    for (std::vector<Op>* phase : {&plan_.setup, &plan_.step, &plan_.frame}) erase_empty(*phase);
+    give_reasons();
   }
 
  private:
@@ -119,49 +112,28 @@ class Placement {
   [[nodiscard]] std::size_t storage(const BufferAccess& access) const {
     return static_cast<std::size_t>(plan_.buffers[static_cast<std::size_t>(access.buffer)].storage);
   }
-  [[nodiscard]] const std::string& name(int buffer) const { return plan_.buffers[static_cast<std::size_t>(buffer)].name; }
 
-  [[nodiscard]] const std::string& label(int stage) const { return plan_.stages[static_cast<std::size_t>(stage)].label; }
-
-  static const char* verb(Access access) {
-    return access == Access::read ? "read" : access == Access::accumulate ? "accumulated" : "written";
-  }
-
-  // Adds the bits that one access waits for, and why.
-  void need(const BufferAccess& access, const std::string& who, const State& state, Barrier& barrier) const {
+  // The bits that one access waits for.
+  [[nodiscard]] Bits need(const BufferAccess& access, const State& state) const {
     const BufferState& buffer = state.buffers[storage(access)];
     const bool accumulates = access.access == Access::accumulate;
-    const Bits bit = access_bit(access);
     const Bits stale = buffer.stale | (accumulates ? 0 : buffer.stale_accumulated);
     const Bits unordered = buffer.unordered | (accumulates ? 0 : buffer.unordered_accumulated);
-    const bool sees_old = (stale & bit) != 0;
-    const bool overtakes = is_shader_write(access) && (unordered & bit) != 0;
-    if (!sees_old && !overtakes) return;
-    const BufferState::Last& earlier = sees_old ? buffer.written : buffer.accessed;
-    const std::string shared =
-        earlier.buffer == access.buffer ? "" : fmt::format(", in memory that was {}'s", name(earlier.buffer));
-    const std::string reason = fmt::format("{}{}: {} by {}, {} by {}", name(access.buffer), shared, verb(earlier.access),
-                                           label(earlier.stage), verb(access.access), who);
-    barrier.bits |= bit;
-    if (std::ranges::find(barrier.reasons, reason) == barrier.reasons.end()) barrier.reasons.push_back(reason);
+    return access_bit(access) & (stale | (is_shader_write(access) ? unordered : 0));
   }
 
-  void apply(const BufferAccess& access, int stage, State& state) const {
+  void apply(const BufferAccess& access, State& state) const {
     BufferState& buffer = state.buffers[storage(access)];
     const bool accumulates = access.access == Access::accumulate;
-    if (is_shader_write(access)) {
-      (accumulates ? buffer.stale_accumulated : buffer.stale) = every_bit;
-      buffer.written = {stage, access.access, access.buffer};
-    }
+    if (is_shader_write(access)) (accumulates ? buffer.stale_accumulated : buffer.stale) = every_bit;
     // The API's own accesses are done, or ordered by OpenGL, when the next command starts.
     if (access.usage == Usage::host || access.usage == Usage::transfer) return;
     (accumulates ? buffer.unordered_accumulated : buffer.unordered) |= write_bits;
-    buffer.accessed = {stage, access.access, access.buffer};
   }
 
-  void need_until(const Repeat& repeat, const State& state, Barrier& barrier) const {
-    if (repeat.until && repeat.until->progress < 0)
-      need({repeat.until->buffer, Access::read, Usage::transfer}, "the end of the repeat", state, barrier);
+  [[nodiscard]] Bits need_until(const Repeat& repeat, const State& state) const {
+    const bool reads = repeat.until && repeat.until->progress < 0;
+    return reads ? need({repeat.until->buffer, Access::read, Usage::transfer}, state) : 0;
   }
 
   static void place(Bits bits, State& state, std::vector<Op>& ops) {
@@ -175,10 +147,10 @@ class Placement {
     std::vector<Op> placed;
     for (const Op& op : ops) {
       if (const auto* run = std::get_if<Run>(&op.what)) {
-        Barrier barrier;
-        for (const BufferAccess& access : run->accesses) need(access, label(run->stage), state, barrier);
-        place(barrier.bits, state, placed);
-        for (const BufferAccess& access : run->accesses) apply(access, run->stage, state);
+        Bits bits = 0;
+        for (const BufferAccess& access : run->accesses) bits |= need(access, state);
+        place(bits, state, placed);
+        for (const BufferAccess& access : run->accesses) apply(access, state);
         placed.push_back(op);
       } else if (const auto* repeat = std::get_if<Repeat>(&op.what)) {
         emit_repeat(*repeat, state, placed);
@@ -193,15 +165,13 @@ class Placement {
     planned.body = steady(
         [&](State& s) {
           std::vector<Op> ops = emit(repeat.body, s);
-          Barrier barrier;
-          need_until(repeat, s, barrier);
-          place(barrier.bits, s, ops);
+          place(need_until(repeat, s), s, ops);
           return ops;
         },
         own);
     // What only the first turn needs stands before the loop.
     const Op op{planned};
-    place(missing({op}, state).bits, state, placed);
+    place(missing({op}, state), state, placed);
     placed.push_back(op);
     state = after({op}, std::move(state));
   }
@@ -217,34 +187,34 @@ class Placement {
   }
 
   // Runs planned ops; collects in `open` what their own barriers leave open.
-  void replay(const std::vector<Op>& ops, State& state, Barrier& open) const {
+  void replay(const std::vector<Op>& ops, State& state, Bits& open) const {
     for (const Op& op : ops) {
       if (const auto* barrier = std::get_if<Barrier>(&op.what)) {
         state.barrier(barrier->bits);
       } else if (const auto* run = std::get_if<Run>(&op.what)) {
-        for (const BufferAccess& access : run->accesses) need(access, label(run->stage), state, open);
-        for (const BufferAccess& access : run->accesses) apply(access, run->stage, state);
+        for (const BufferAccess& access : run->accesses) open |= need(access, state);
+        for (const BufferAccess& access : run->accesses) apply(access, state);
       } else if (const auto* repeat = std::get_if<Repeat>(&op.what)) {
         // One turn may be all there is; the second stands for all later ones.
         replay(repeat->body, state, open);
-        need_until(*repeat, state, open);
+        open |= need_until(*repeat, state);
         if (repeat->max == 1) continue;
         const State once = state;
         replay(repeat->body, state, open);
-        need_until(*repeat, state, open);
+        open |= need_until(*repeat, state);
         state.join(once);
       }
     }
   }
 
-  [[nodiscard]] Barrier missing(const std::vector<Op>& ops, State state) const {
-    Barrier open;
+  [[nodiscard]] Bits missing(const std::vector<Op>& ops, State state) const {
+    Bits open = 0;
     replay(ops, state, open);
     return open;
   }
 
   [[nodiscard]] State after(const std::vector<Op>& ops, State state) const {
-    Barrier ignored;
+    Bits ignored = 0;
     replay(ops, state, ignored);
     return state;
   }
@@ -255,44 +225,64 @@ class Placement {
     std::get<Barrier>(phase.back().what).bits |= bits;
   }
 
-  // What the barriers leave open in any run.
-  [[nodiscard]] Barrier missing() const {
-    Barrier open = missing(plan_.setup, clean());
-    for (const std::vector<Op>* phase : {&plan_.setup, &plan_.step, &plan_.frame}) {
-      const State end = after(*phase, clean());
-      for (const std::vector<Op>* next : {&plan_.step, &plan_.frame}) {
-        State state = end;
-        replay(*next, state, open);
-      }
+  struct SetBit {
+    Barrier* barrier;
+    Bits bit;
+  };
+  static void collect(std::vector<Op>& ops, std::vector<SetBit>& bits) {
+    for (Op& op : ops) {
+      if (auto* repeat = std::get_if<Repeat>(&op.what)) collect(repeat->body, bits);
+      if (auto* barrier = std::get_if<Barrier>(&op.what))
+        for (const auto& [bit, bit_name] : bit_table)
+          if ((barrier->bits & bit) != 0) bits.push_back({barrier, bit});
     }
-    return open;
   }
 
-  void drop_needless_bits(std::vector<Op>& ops) {
-    for (Op& op : ops) {
-      if (auto* repeat = std::get_if<Repeat>(&op.what)) drop_needless_bits(repeat->body);
-      if (auto* barrier = std::get_if<Barrier>(&op.what))
-        for (const auto& [bit, bit_name] : bit_table) {
-          if ((barrier->bits & bit) == 0) continue;
-          barrier->bits &= ~bit;
-          if (missing().bits != 0) barrier->bits |= bit;
+  // One bit after the other, each if what is left then suffices. Whether so many can go together is the same question, so the
+  // longest row of bits that can is sought by halves: a plan of n barriers is played a few times, not n times.
+  void drop_needless_bits() {
+    std::vector<SetBit> bits;
+    for (std::vector<Op>* phase : {&plan_.step, &plan_.frame, &plan_.setup}) collect(*phase, bits);
+    for (auto begin = bits.begin(); begin != bits.end();) {
+      const BarrierNeeds needs = barrier_needs(plan_);
+      begin = bits.erase(bits.begin(), begin);
+      std::erase_if(bits, [&](const SetBit& set) {
+        const auto need = needs.of.find(set.barrier);
+        return need != needs.of.end() && (need->second.bits & set.bit) != 0;
+      });
+      begin = bits.begin();
+      for (auto end = bits.end(); begin != end;) {
+        const auto middle = begin + (end - begin + 1) / 2;
+        for (auto set = begin; set != middle; ++set) set->barrier->bits &= ~set->bit;
+        if (barrier_needs(plan_).complete) {
+          begin = middle;
+          continue;
         }
+        for (auto set = begin; set != middle; ++set) set->barrier->bits |= set->bit;
+        end = middle - 1;
+      }
+      if (begin != bits.end()) ++begin;  // this one is needed now
     }
+  }
+
+  static void erase_empty(std::vector<Op>& ops) {
+    for (Op& op : ops)
+      if (auto* repeat = std::get_if<Repeat>(&op.what)) erase_empty(repeat->body);
     std::erase_if(ops, [](const Op& op) {
       const auto* barrier = std::get_if<Barrier>(&op.what);
       return barrier != nullptr && barrier->bits == 0;
     });
   }
 
-  // A barrier's reasons are what would be open without it.
-  void give_reasons(std::vector<Op>& ops) {
-    for (Op& op : ops) {
-      if (auto* repeat = std::get_if<Repeat>(&op.what)) give_reasons(repeat->body);
-      if (auto* barrier = std::get_if<Barrier>(&op.what)) {
-        const Bits bits = std::exchange(barrier->bits, 0);
-        *barrier = {bits, missing().reasons};
+  void give_reasons() {
+    BarrierNeeds needs = barrier_needs(plan_);
+    const std::function<void(std::vector<Op>&)> give = [&](std::vector<Op>& ops) {
+      for (Op& op : ops) {
+        if (auto* repeat = std::get_if<Repeat>(&op.what)) give(repeat->body);
+        if (auto* barrier = std::get_if<Barrier>(&op.what)) barrier->reasons = std::move(needs.of[barrier].reasons);
       }
-    }
+    };
+    for (std::vector<Op>* phase : {&plan_.step, &plan_.frame, &plan_.setup}) give(*phase);
   }
 
   Plan& plan_;

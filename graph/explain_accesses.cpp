@@ -18,6 +18,7 @@ struct Passed {
 // An earlier access that later ones may have to wait for, and the barriers since.
 struct Earlier {
   std::string who, verb;
+  int buffer = -1;
   std::map<Bits, Passed> barriers;  // by bit: the first one
 };
 
@@ -121,17 +122,22 @@ class Replay {
     const Earlier* last = nullptr;
     for (const Earlier* earlier : before) {
       const auto passed = earlier->barriers.find(bit);
-      if (passed == earlier->barriers.end())
-        return {AccessNote::Order::missing, fmt::format("{} by {}", earlier->verb, earlier->who)};
+      if (passed == earlier->barriers.end()) return {AccessNote::Order::missing, told(*earlier, access)};
       if (last == nullptr || passed->second.number > last->barriers.at(bit).number) last = earlier;
     }
     if (last != nullptr) {
       const Passed& passed = last->barriers.at(bit);
-      if (passed.number == own_barrier_) return {AccessNote::Order::own_barrier, fmt::format("{} by {}", last->verb, last->who)};
-      return {AccessNote::Order::earlier_barrier,
-              fmt::format("{} by {}, waited for before {}", last->verb, last->who, passed.before)};
+      if (passed.number == own_barrier_) return {AccessNote::Order::own_barrier, told(*last, access)};
+      return {AccessNote::Order::earlier_barrier, fmt::format("{}, waited for before {}", told(*last, access), passed.before)};
     }
     return {AccessNote::Order::none_needed, why_none(access, state)};
+  }
+
+  // Of another buffer in the same memory its name is told: whoever used that one knows nothing of this one.
+  [[nodiscard]] std::string told(const Earlier& earlier, const BufferAccess& access) const {
+    if (earlier.buffer == access.buffer) return fmt::format("{} by {}", earlier.verb, earlier.who);
+    return fmt::format("its memory held {}, {} by {}", plan_.buffers[static_cast<std::size_t>(earlier.buffer)].name, earlier.verb,
+                       earlier.who);
   }
 
   [[nodiscard]] static std::string why_none(const BufferAccess& access, const StorageState& state) {
@@ -146,7 +152,7 @@ class Replay {
   void apply(const BufferAccess& access, const std::string& who) {
     StorageState& state = states_[storage_of(access)];
     const bool accumulates = access.access == Access::accumulate;
-    const Earlier now{who, verb(access.access), {}};
+    const Earlier now{who, verb(access.access), access.buffer, {}};
     if (is_shader_write(access)) (accumulates ? state.added : state.written) = now;
     if (writes(access.access)) state.api_writer = is_shader_write(access) ? "" : who;
     if (access.usage == Usage::host || access.usage == Usage::transfer) return;

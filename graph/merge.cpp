@@ -33,6 +33,12 @@ void each_list(Node& list, const std::function<void(Node& item, const std::strin
   }
 }
 
+std::string canonical_name(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::path found = std::filesystem::weakly_canonical(file, error);
+  return (error ? file : found).string();
+}
+
 // `chain`: the files that include this one, directly or through others.
 Node load_in_chain(const std::filesystem::path& file, std::vector<std::string> chain, Diagnostics& diagnostics) {
   Node own = config::load(file, diagnostics);
@@ -43,12 +49,13 @@ Node load_in_chain(const std::filesystem::path& file, std::vector<std::string> c
   if (include != nullptr) {
     std::erase_if(merged.entries, [](const Entry& e) { return e.key == "include"; });
     const auto path = config::read_text(*include, "include", diagnostics);
-    chain.push_back(std::filesystem::weakly_canonical(file).string());
+    chain.push_back(canonical_name(file));
     const std::string other = path ? beside(include->place, *path) : "";
-    if (path && std::ranges::find(chain, std::filesystem::weakly_canonical(other).string()) != chain.end()) {
-      diagnostics.error(include->place, fmt::format("'{}' includes itself, directly or through others", *path));
-    } else if (path && !std::filesystem::is_regular_file(other)) {
+    std::error_code error;  // of names that are too long, circles of links and the like: there is no such file
+    if (path && !std::filesystem::is_regular_file(other, error)) {
       diagnostics.error(include->place, fmt::format("no such file: '{}'", other));
+    } else if (path && std::ranges::find(chain, canonical_name(other)) != chain.end()) {
+      diagnostics.error(include->place, fmt::format("'{}' includes itself, directly or through others", *path));
     } else if (path) {
       Node base = load_in_chain(other, chain, diagnostics);
       for (Entry& e : merged.entries) {

@@ -48,7 +48,8 @@ void read_stage_files(PipelineSpec& pipeline, Diagnostics& diagnostics) {
     if (!is_stage_file(use.stage)) return;
     const std::string path = use.stage;
     if (!by_path.contains(path)) {
-      if (std::filesystem::is_regular_file(path))
+      std::error_code error;  // names that are too long, circles of links
+      if (std::filesystem::is_regular_file(path, error))
         by_path[path] = read_stage_file(path, diagnostics);
       else
         diagnostics.error(use.place, fmt::format("no such stage file: '{}'", path));

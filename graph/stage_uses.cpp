@@ -19,6 +19,10 @@ using config::Entry;
 using config::Node;
 using config::Reader;
 
+// A plan looks at each turn of a repeat by itself, so that every level doubles the work of planning.
+constexpr int deepest_repeat = 5;
+constexpr int most_stages = 10'000;  // of a phase; aliases multiply them quickly
+
 // The same text, or the same number however it is written.
 bool same_value(const Node& a, const Node& b) {
   if (a.kind != Node::Kind::scalar || b.kind != Node::Kind::scalar) return false;
@@ -44,6 +48,11 @@ class StageReader {
 
  private:
   void item(const Node& node, std::vector<Item>& items) {
+    if (++stages_ > most_stages) {
+      if (stages_ == most_stages + 1)
+        diagnostics_.error(node.place, fmt::format("more than {} stages in one phase of a pipeline", most_stages));
+      return;
+    }
     if (node.kind == Node::Kind::scalar) {
       items.push_back({named(node.scalar, node.place)});
     } else if (node.find("repeat") != nullptr) {
@@ -199,7 +208,12 @@ class StageReader {
     } else {
       use.max = config::read_integer(*how, "repeat", turns, diagnostics_).value_or(1);
     }
-    if (const Node* stages = reader.require("stages")) this->items(*stages, "stages", use.stages);
+    ++depth_;
+    if (depth_ == deepest_repeat + 1)
+      diagnostics_.error(node.place, fmt::format("repeats stand in one another more than {} deep", deepest_repeat));
+    const Node* stages = reader.require("stages");
+    if (stages != nullptr && depth_ <= deepest_repeat) this->items(*stages, "stages", use.stages);
+    --depth_;
     const bool wanted = when(reader.find("when"));
     reader.finish();
     std::vector<Item> one;
@@ -209,6 +223,7 @@ class StageReader {
 
   const Node& parameters_;
   Diagnostics& diagnostics_;
+  int depth_ = 0, stages_ = 0;
 };
 
 }  // namespace

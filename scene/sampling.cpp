@@ -38,6 +38,34 @@ CellRange cells_touched(const Bounds& bounds, const Domain& domain) {
   return range;
 }
 
+// Appends the cells of `range` that may touch the solid. Whole blocks that lie too far from it are left out at once: a thin solid
+// that lies askew fills next to nothing of its bounding box.
+void add_cells_near(const Inside& inside, const CellRange& range, const Domain& domain, std::vector<Eigen::Vector3i>& cells) {
+  const Eigen::Vector3i size = range.end - range.begin;
+  if ((size.array() <= 0).any()) return;
+  const Vector3d half = 0.5 * domain.cell * size.cast<double>();
+  const Vector3d center = domain.min + domain.cell * range.begin.cast<double>() + half;
+  const double rounding = 1e-9 * (domain.cell + domain.min.cwiseAbs().maxCoeff() + domain.max.cwiseAbs().maxCoeff());
+  if (inside.distance(center) > half.norm() + rounding) return;
+  int longest = 0;
+  if (size.maxCoeff(&longest) == 1) {
+    cells.push_back(range.begin);
+    return;
+  }
+  CellRange low = range, high = range;
+  low.end[longest] = high.begin[longest] = range.begin[longest] + size[longest] / 2;
+  add_cells_near(inside, low, domain, cells);
+  add_cells_near(inside, high, domain, cells);
+}
+
+// By z, then y, then x.
+std::vector<Eigen::Vector3i> cells_near(const Inside& inside, const CellRange& range, const Domain& domain) {
+  std::vector<Eigen::Vector3i> cells;
+  add_cells_near(inside, range, domain, cells);
+  std::ranges::sort(cells, {}, [](const Eigen::Vector3i& at) { return std::array{at.z(), at.y(), at.x()}; });
+  return cells;
+}
+
 // The factors of sub_cells() dealt to the axes; one of the six orders, by the cell's own draw.
 Eigen::Vector3i dealt(std::array<int, 3> factors, std::uint64_t draw) {
   if (factors[0] != factors[2]) {
@@ -68,26 +96,22 @@ void fill(const Solid& solid, const Snow& snow, std::uint64_t snow_index, const 
   const std::array<int, 3> factors = sub_cells(snow.per_cell);
   const Motion motion{snow.velocity, snow.spin, center_of(solid.shape)};
   const Inside inside(solid);
-  const CellRange range = cells_touched(bounds_of(solid), domain);
 
-  Eigen::Vector3i at;
-  for (at.z() = range.begin.z(); at.z() < range.end.z(); ++at.z())
-    for (at.y() = range.begin.y(); at.y() < range.end.y(); ++at.y())
-      for (at.x() = range.begin.x(); at.x() < range.end.x(); ++at.x()) {
-        const std::uint64_t draw = hash({scene.seed, snow_index, static_cast<std::uint64_t>(at.x()),
-                                         static_cast<std::uint64_t>(at.y()), static_cast<std::uint64_t>(at.z())});
-        const Eigen::Vector3i count = dealt(factors, draw);
-        for (int sub = 0; sub < snow.per_cell; ++sub) {
-          const Eigen::Vector3i index(sub % count.x(), sub / count.x() % count.y(), sub / (count.x() * count.y()));
-          Vector3d position;
-          for (int axis = 0; axis < 3; ++axis) {
-            const double jitter = unit_interval(hash({draw, static_cast<std::uint64_t>(sub), static_cast<std::uint64_t>(axis)}));
-            const double in_cells = at[axis] + (index[axis] + jitter) / count[axis];
-            position[axis] = std::fma(cell, in_cells, domain.min[axis]);
-          }
-          if (inside(position)) add(particles, position, motion.at(position), mass, volume, snow.material);
-        }
+  for (const Eigen::Vector3i& at : cells_near(inside, cells_touched(bounds_of(solid), domain), domain)) {
+    const std::uint64_t draw = hash({scene.seed, snow_index, static_cast<std::uint64_t>(at.x()), static_cast<std::uint64_t>(at.y()),
+                                     static_cast<std::uint64_t>(at.z())});
+    const Eigen::Vector3i count = dealt(factors, draw);
+    for (int sub = 0; sub < snow.per_cell; ++sub) {
+      const Eigen::Vector3i index(sub % count.x(), sub / count.x() % count.y(), sub / (count.x() * count.y()));
+      Vector3d position;
+      for (int axis = 0; axis < 3; ++axis) {
+        const double jitter = unit_interval(hash({draw, static_cast<std::uint64_t>(sub), static_cast<std::uint64_t>(axis)}));
+        const double in_cells = at[axis] + (index[axis] + jitter) / count[axis];
+        position[axis] = std::fma(cell, in_cells, domain.min[axis]);
       }
+      if (inside(position)) add(particles, position, motion.at(position), mass, volume, snow.material);
+    }
+  }
 }
 
 // Runs what reads a file of points; what is wrong with the file is told with the place in the scene that names it.

@@ -99,6 +99,16 @@ bool Inside::operator()(const Vector3d& point) const {
   return repeatable_dot(off_axis, off_axis) <= capsule.radius * capsule.radius;
 }
 
+double Inside::distance(const Vector3d& point) const {
+  const Vector3d own = to_own_axes_ * (point - center_);
+  if (const auto* sphere = std::get_if<Sphere>(&shape_)) return std::max(own.norm() - sphere->radius, 0.0);
+  if (const auto* box = std::get_if<Box>(&shape_)) return (own.cwiseAbs() - box->half_size).cwiseMax(0).norm();
+  const auto& capsule = std::get<Capsule>(shape_);
+  const Vector3d half_axis = 0.5 * (capsule.end - capsule.start);
+  const double along = std::clamp(own.dot(half_axis) / half_axis.squaredNorm(), -1.0, 1.0);
+  return std::max((own - along * half_axis).norm() - capsule.radius, 0.0);
+}
+
 double grown_volume(const Solid& solid, double distance) {
   constexpr double pi = std::numbers::pi;
   return std::visit(Overloaded{[&](const Sphere& sphere) {

@@ -34,6 +34,7 @@ class Inside {
  public:
   explicit Inside(const Solid& solid);
   [[nodiscard]] bool operator()(const Vector3d& point) const;  // the surface counts as inside
+  [[nodiscard]] double distance(const Vector3d& point) const;  // from the solid, m; 0 inside
 
  private:
   SolidShape shape_;

@@ -88,6 +88,15 @@ TEST_CASE("what is no pipeline or scene at all is told so", "[app]") {
   }
 }
 
+TEST_CASE("a name that no file system takes is no file, wherever it stands", "[app]") {
+  const Folder folder;
+  const std::string longest(5000, 'a');
+  const std::string pipeline = folder.write("pipeline.yaml", "firn: 1\nscene: " + longest + "\nstep: [mpm.advect]\n");
+  CHECK(firn::test::run_firn({"check", pipeline}).status == 2);
+  CHECK(firn::test::run_firn({"check", longest}).status == 2);
+  CHECK(firn::test::run_firn({"check", "mpm_snow", "--scene", longest}).status == 2);
+}
+
 TEST_CASE("a scene with neither snow nor field is told that there is nothing to simulate", "[app]") {
   const Folder folder;
   const std::string pipeline = folder.write("pipeline.yaml", small_pipeline);

@@ -70,5 +70,5 @@ TEST_CASE("buffers that share memory wait for one another", "[graph]") {
   Plan plan = firn::test::PlanText("setup a x:write; b x:read; c y:write").plan();
   plan.buffers[1].storage = plan.buffers[0].storage;
   firn::graph::place_barriers(plan);
-  check(explain_accesses(plan).setup[2][0], Order::own_barrier, "read by b");
+  check(explain_accesses(plan).setup[2][0], Order::own_barrier, "its memory held x, read by b");
 }

@@ -5,11 +5,14 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 #include <map>
 #include <numbers>
+#include <random>
 
 #include "scene/npy.h"
 #include "scene/repeatable.h"
+#include "scene/solid.h"
 #include "tests/scene/support.h"
 
 namespace firn::test {
@@ -259,6 +262,40 @@ TEST_CASE("random numbers are SplitMix64's") {
   CHECK(scene::unit_interval(~std::uint64_t{0}) == 1 - 0x1p-53);
   CHECK(scene::hash({1, 2}) != scene::hash({2, 1}));
   CHECK(scene::hash({1}) != scene::hash({1, 0}));
+}
+
+TEST_CASE("the distance from a solid is zero inside and grows no faster than the way", "[scene]") {
+  std::mt19937_64 random(seed());
+  INFO("seed " << seed());
+  std::uniform_real_distribution<double> anywhere(-2, 2);
+  const auto point = [&] { return Vector3d(anywhere(random), anywhere(random), anywhere(random)); };
+  const scene::SolidShape shapes[] = {scene::Sphere{point(), 0.7}, scene::Box{point(), {0.3, 0.8, 0.5}},
+                                      scene::Capsule{point(), point(), 0.2}};
+  for (const scene::SolidShape& shape : shapes) {
+    const scene::Inside inside(scene::Solid{shape, Eigen::Quaterniond(Eigen::AngleAxisd(1, point().normalized()))});
+    CAPTURE(scene::name_of(shape));
+    int hits = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const Vector3d a = point(), b = point();
+      hits += inside(a) ? 1 : 0;
+      CHECK((inside.distance(a) == 0) == inside(a));
+      CHECK(std::abs(inside.distance(a) - inside.distance(b)) <= (a - b).norm() + 1e-12);
+    }
+    CHECK(hits > 0);
+  }
+}
+
+TEST_CASE("a thin solid askew in a large domain is sampled in a moment", "[scene]") {
+  const std::string text =
+      "firn: 1\ndomain: {min: [0, 0, 0], max: [5.12, 5.12, 5.12], cell: 0.02}\nsnow: [{capsule: {from: [0.1, 0.1, 0.1], "
+      "to: [5, 5, 5], radius: 0.002}, material: packed, per_cell: 64}]\n";
+  const scene::Scene scene = good_scene(text);
+  const std::clock_t start = std::clock();
+  const Particles particles = scene::sample(scene);
+  CHECK(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC < 2);
+  // pi r^2 l and two half spheres, in sub-cells.
+  const double expected = (3.14159265 * 0.002 * 0.002 * (4.9 * std::sqrt(3.0) + 4.0 / 3.0 * 0.002)) / (8e-6 / 64);
+  CHECK(static_cast<double>(particles.position.size()) == Approx(expected).epsilon(0.2));
 }
 
 }  // namespace firn::test
