@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "app/choice.h"
+#include "app/export.h"
 #include "app/shipped.h"
 #include "config/nearest.h"
 
@@ -178,6 +179,7 @@ Loaded load(const Inputs& inputs, const std::string& output) {
   edits.set = read_overrides(inputs.set, diagnostics);
   edits.disable = inputs.disable;
   edits.replace = read_replacements(inputs.replace, diagnostics);
+  edits.frame = read_exports(inputs.exports, diagnostics);
   const stages::Image image = read_image_size(inputs.image, diagnostics);
 
   loaded.pipeline_file = find_input(inputs.pipeline, "pipelines");

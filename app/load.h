@@ -17,6 +17,7 @@ namespace firn::app {
 struct Inputs {
   std::string pipeline, scene;  // files; an empty scene is the pipeline's own
   std::vector<std::string> set, disable, replace;
+  std::vector<std::string> exports;  // particles:vtp (app/export.h)
   std::string image = "1280x720";
   std::vector<std::string> keep;  // buffers whose contents are wanted after a step, as dumps are
   bool share_memory = true;

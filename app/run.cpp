@@ -10,6 +10,7 @@
 #include "app/choice.h"
 #include "app/command_line.h"
 #include "app/dump.h"
+#include "app/export.h"
 #include "app/load.h"
 #include "app/manifest.h"
 #include "app/progress.h"
@@ -143,6 +144,7 @@ void add_run(CLI::App& program, Action& action) {
   verb->add_option("--steps", options->steps, "Stop after so many steps")->check(at_least(0));
   verb->add_option("--frames", options->frames, "Stop after so many frames")->check(at_least(0))->excludes("--steps");
   verb->add_option("--out", options->output, "Folder for results (default: out/<pipeline>, with --scene out/<pipeline>-<scene>)");
+  add_export(*verb, options->inputs);
   verb->add_option("--dump", options->dumps, "BUFFER=FILE.npy: write a buffer at the end")->allow_extra_args(false);
   verb->add_option("--device", options->device,
                    "auto (hardware first), hardware, software, a number as doctor lists them, or part of a name")

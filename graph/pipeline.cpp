@@ -152,6 +152,7 @@ PipelineSpec load_pipeline(const std::filesystem::path& file, const Edits& edits
   reader.find("parameters");
   for (auto [name, list] : {std::pair{"setup", &pipeline.setup}, {"step", &pipeline.step}, {"frame", &pipeline.frame}})
     if (const Node* node = reader.find(name)) read_items(*node, name, pipeline.parameters, *list, diagnostics);
+  if (!edits.frame.items.empty()) read_items(edits.frame, "frame", pipeline.parameters, pipeline.frame, diagnostics);
   reader.find("include");
   reader.find("replace");
   reader.finish();

@@ -62,6 +62,7 @@ struct Edits {
   std::vector<config::Override> set;  // k=4, stage.param=value, stage.every=2; paths that begin with "scene" are not for us
   std::vector<std::string> disable;   // labels
   std::vector<std::pair<std::string, config::Node>> replace;  // group -> list of stages
+  config::Node frame = {};                                    // list of stages at the end of `frame`
 };
 
 // Reads a pipeline file: includes, groups and their replacements, ${parameters}, stages that are files, edits. Everything wrong

@@ -1,11 +1,12 @@
 #pragma once
 
-// PNG files of 8-bit RGB.
+// PNG files: pictures of 8-bit RGB, and 16-bit grey for numbers.
 
 #include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace firn::stages {
@@ -21,5 +22,13 @@ Picture picture_of(std::span<const std::byte> rgba, int width, int height);
 // `compression`: 0 (fast) to 9 (small). Written beside `file` and renamed, so that `file` is whole or as it was.
 // Throws std::runtime_error naming the file.
 void write_png(const std::filesystem::path& file, const Picture& picture, int compression);
+
+// Numbers as shades of grey, 16 bits each, rows from top to bottom.
+struct Shades {
+  int width = 0, height = 0;
+  std::vector<std::uint16_t> values;
+};
+// The bytes of a PNG file, with texts in it: name and what it says. Throws std::runtime_error.
+std::string png_of(const Shades& shades, const std::vector<std::pair<std::string, std::string>>& texts);
 
 }  // namespace firn::stages

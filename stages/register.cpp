@@ -15,7 +15,12 @@
 #include "stages/heightfield/resistance.h"
 #include "stages/heightfield/support.h"
 #include "stages/heightfield/underside.h"
+#include "stages/io/bodies.h"
 #include "stages/io/frames.h"
+#include "stages/io/grid.h"
+#include "stages/io/heightfield.h"
+#include "stages/io/particles.h"
+#include "stages/io/surface.h"
 #include "stages/io/video.h"
 #include "stages/mpm/advect.h"
 #include "stages/mpm/clear_grid.h"
@@ -43,6 +48,7 @@ namespace firn::stages {
 
 graph::Registry all_stages(const std::shared_ptr<const Problem>& problem) {
   graph::Registry registry;
+  const Exports exports{problem, std::make_shared<Writer>()};
   registry.add(bodies::integrate());
   registry.add(bodies::place(), bodies::placing(problem));
   registry.add(heightfield::active_tiles());
@@ -58,7 +64,12 @@ graph::Registry all_stages(const std::shared_ptr<const Problem>& problem) {
   registry.add(heightfield::resistance());
   registry.add(heightfield::support());
   registry.add(heightfield::underside());
+  registry.add(io::bodies(), io::writing_bodies(exports));
   registry.add(io::frames(), io::writing_frames(problem));
+  registry.add(io::grid(), io::writing_grid(exports));
+  registry.add(io::heightfield_files(), io::writing_heightfield(exports));
+  registry.add(io::particles(), io::writing_particles(exports));
+  registry.add(io::surface(), io::writing_surface(exports));
   registry.add(io::video(), io::writing_video(problem));
   registry.add(mpm::advect());
   registry.add(mpm::clear_grid());

@@ -1,0 +1,126 @@
+#include "stages/node_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace firn::stages {
+namespace {
+
+int block_of(int node) { return node >= 0 ? node / NodeField::edge : (node + 1) / NodeField::edge - 1; }
+
+class Blocks {
+ public:
+  explicit Blocks(NodeField& field) : field_(field) {}
+  NodeField::Block& at(const std::array<int, 3>& block) {
+    if (block == last_block_ && !field_.blocks.empty()) return field_.blocks[last_];
+    constexpr std::uint64_t bias = 1 << 20, mask = (1 << 21) - 1;
+    std::uint64_t key = 0;
+    for (const int part : block) key = key << 21 | ((static_cast<std::uint64_t>(part) + bias) & mask);
+    const auto [found, fresh] = index_.try_emplace(key, field_.blocks.size());
+    if (fresh) {
+      NodeField::Block& made = field_.blocks.emplace_back();
+      for (std::size_t axis = 0; axis < 3; ++axis) made.first[axis] = block[axis] * NodeField::edge;
+      made.density.fill(0);
+      made.velocity.fill({0, 0, 0});
+    }
+    last_block_ = block;
+    last_ = found->second;
+    return field_.blocks[last_];
+  }
+
+ private:
+  NodeField& field_;
+  std::unordered_map<std::uint64_t, std::size_t> index_;
+  std::array<int, 3> last_block_{};
+  std::size_t last_ = 0;
+};
+
+// Quadratic B-spline: the first of three nodes about x (in cells), and their weights.
+struct Weights {
+  int first;
+  std::array<float, 3> w;
+};
+Weights weights(double x) {
+  const double base = std::floor(x - 0.5), d = x - base;
+  return {static_cast<int>(base),
+          {static_cast<float>(0.5 * (1.5 - d) * (1.5 - d)), static_cast<float>(0.75 - (d - 1) * (d - 1)),
+           static_cast<float>(0.5 * (d - 0.5) * (d - 0.5))}};
+}
+
+}  // namespace
+
+NodeField node_field(std::span<const float> position, std::span<const float> velocity, std::span<const float> mass,
+                     const Eigen::Vector3d& origin, double cell) {
+  NodeField field;
+  field.origin = origin;
+  field.cell = cell;
+  Blocks blocks(field);
+  for (std::size_t p = 0; p < mass.size(); ++p) {
+    std::array<Weights, 3> axis{};
+    bool finite = true;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double x = (static_cast<double>(position[3 * p + a]) - origin[static_cast<Eigen::Index>(a)]) / cell;
+      finite = finite && std::abs(x) < 4e6;
+      axis[a] = finite ? weights(x) : Weights{};
+    }
+    if (!finite) continue;
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i) {
+          const std::array<int, 3> node{axis[0].first + i, axis[1].first + j, axis[2].first + k};
+          const std::array<int, 3> block{block_of(node[0]), block_of(node[1]), block_of(node[2])};
+          NodeField::Block& target = blocks.at(block);
+          const std::size_t at = NodeField::index(node[0] - target.first[0], node[1] - target.first[1], node[2] - target.first[2]);
+          const float part = mass[p] * axis[0].w[static_cast<std::size_t>(i)] * axis[1].w[static_cast<std::size_t>(j)] *
+                             axis[2].w[static_cast<std::size_t>(k)];
+          target.density[at] += part;
+          for (std::size_t a = 0; a < 3; ++a) target.velocity[at][a] += part * velocity[3 * p + a];
+        }
+  }
+  const auto volume = static_cast<float>(cell * cell * cell);
+  for (NodeField::Block& block : field.blocks)
+    for (std::size_t n = 0; n < NodeField::size; ++n) {
+      if (block.density[n] <= 0) continue;
+      for (float& part : block.velocity[n]) part /= block.density[n];
+      block.density[n] /= volume;
+    }
+  return field;
+}
+
+NodeRange range_of(const NodeField& field) {
+  constexpr int most = std::numeric_limits<int>::max(), least = std::numeric_limits<int>::min();
+  NodeRange range{{most, most, most}, {least, least, least}};
+  for (const NodeField::Block& block : field.blocks)
+    for (int n = 0; n < NodeField::size; ++n) {
+      if (block.density[static_cast<std::size_t>(n)] <= 0) continue;
+      const std::array<int, 3> own{n % 8, n / 8 % 8, n / 64};
+      for (std::size_t a = 0; a < 3; ++a) {
+        range.first[a] = std::min(range.first[a], block.first[a] + own[a]);
+        range.last[a] = std::max(range.last[a], block.first[a] + own[a]);
+      }
+    }
+  return range;
+}
+
+DenseField dense(const NodeField& field, const NodeRange& range) {
+  std::array<std::size_t, 3> count{};
+  for (std::size_t a = 0; a < 3; ++a) count[a] = static_cast<std::size_t>(std::max(0, range.last[a] - range.first[a] + 1));
+  DenseField result;
+  result.density.resize(count[0] * count[1] * count[2]);
+  result.velocity.resize(result.density.size() * 3);
+  for (const NodeField::Block& block : field.blocks)
+    for (int n = 0; n < NodeField::size; ++n) {
+      const auto from = static_cast<std::size_t>(n);
+      if (block.density[from] <= 0) continue;
+      const std::size_t x = static_cast<std::size_t>(block.first[0] + n % 8 - range.first[0]),
+                        y = static_cast<std::size_t>(block.first[1] + n / 8 % 8 - range.first[1]),
+                        z = static_cast<std::size_t>(block.first[2] + n / 64 - range.first[2]);
+      const std::size_t to = (z * count[1] + y) * count[0] + x;
+      result.density[to] = block.density[from];
+      for (std::size_t a = 0; a < 3; ++a) result.velocity[3 * to + a] = block.velocity[from][a];
+    }
+  return result;
+}
+
+}  // namespace firn::stages
