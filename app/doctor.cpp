@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/load.h"
+#include "app/speed.h"
 #include "app/verbs.h"
 #include "app/version.h"
 #include "gpu/device.h"
@@ -74,11 +75,17 @@ void add_doctor(CLI::App& program, Action& action) {
       }
       const std::unique_ptr<gpu::Device> device = gpu::Device::open(*choice);
       const gpu::DeviceInfo& info = device->info();
-      const std::vector<std::string> remarks = verdict(info);
+      std::vector<std::string> remarks = verdict(info);
+      Speed speed;
+      try {
+        speed = measure_speed(*device);
+      } catch (const std::runtime_error& error) {
+        remarks.push_back(fmt::format("its speed cannot be measured: {}", error.what()));
+      }
       if (*json) {
-        const nlohmann::json report = {{"version", version()},        {"devices", list},
-                                       {"used", as_json(info)},       {"remarks", remarks},
-                                       {"ffmpeg", on_path("ffmpeg")}, {"graphviz", on_path("dot")}};
+        const nlohmann::json report = {{"version", version()},      {"devices", list},    {"used", as_json(info)},
+                                       {"speed", as_json(speed)},   {"remarks", remarks}, {"ffmpeg", on_path("ffmpeg")},
+                                       {"graphviz", on_path("dot")}};
         fmt::print("{}\n", report.dump(2));
         return static_cast<int>(Status::done);
       }
@@ -90,6 +97,10 @@ void add_doctor(CLI::App& program, Action& action) {
                  limits.texture_buffer_texels, limits.texture_size);
       fmt::print("  invocations per work group          {}\n  shared memory per work group        {}\n", limits.group_invocations,
                  limits.shared_bytes);
+      fmt::print("  copy by a kernel, read and written  {}\n  copy from buffer to buffer          {}\n", in_words(speed.copy, "B"),
+                 in_words(speed.buffer_copy, "B"));
+      fmt::print("  multiply-adds of 32-bit floats      {}\n  from one launch to the next         {:.2f} us\n",
+                 in_words(speed.multiply_add, "FLOP"), 1e6 * speed.launch);
       fmt::print("\nprograms\n  ffmpeg    {}\n  Graphviz  {}\n", on_path("ffmpeg") ? "found" : "not found: no video, pictures only",
                  on_path("dot") ? "found" : "not found: explain writes no svg");
       fmt::print("\nremarks\n");

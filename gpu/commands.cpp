@@ -27,16 +27,16 @@ constexpr struct {
 void bind_texture_unit(Context& context, std::vector<std::uint32_t>& points, std::uint32_t unit, GLenum target, std::uint32_t id) {
   if (is_bound(points, unit, id)) return;
   glActiveTexture(GL_TEXTURE0 + unit);
-  context.check();  // else a unit too high would change the unit before
+  context.check_told();  // else a unit too high would change the unit before
   glBindTexture(target, id);
-  context.check();
+  context.check_told();
   note_bound(points, unit, id);
 }
 
 void bind_buffer(Context& context, std::vector<std::uint32_t>& points, std::uint32_t binding, GLenum target, std::uint32_t id) {
   if (is_bound(points, binding, id)) return;
   glBindBufferBase(target, binding, id);
-  context.check();
+  context.check_told();
   note_bound(points, binding, id);
 }
 
@@ -50,13 +50,13 @@ void memory_barrier(std::uint32_t bits) {
   if (!gl) return;
   Context& context = current();
   glMemoryBarrier(gl);
-  context.check();
+  context.check_told();
 }
 
 void memory_barrier_all() {
   Context& context = current();
   glMemoryBarrier(GL_ALL_BARRIER_BITS);
-  context.check();
+  context.check_told();
 }
 
 void use(const Program& program) {
@@ -64,7 +64,7 @@ void use(const Program& program) {
   if (context.bindings.program == program.id() && program.id()) return;
   context.bindings.program = 0;
   glUseProgram(program.id());
-  context.check();
+  context.check_told();
   context.bindings.program = program.id();
 }
 
@@ -92,7 +92,7 @@ void bind_image(std::uint32_t unit, const Texture& texture) {
   Context& context = current();
   if (is_bound(context.bindings.images, unit, texture.id())) return;
   glBindImageTexture(unit, texture.id(), 0, GL_FALSE, 0, GL_READ_WRITE, gl_format(texture.format()).internal);
-  context.check();
+  context.check_told();
   note_bound(context.bindings.images, unit, texture.id());
 }
 
@@ -100,7 +100,7 @@ void bind_indirect(const Buffer& buffer) {
   Context& context = current();
   if (context.bindings.indirect == buffer.id() && buffer.id()) return;
   glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer.id());
-  context.check();
+  context.check_told();
   context.bindings.indirect = buffer.id();
 }
 
@@ -113,13 +113,21 @@ void forget_bindings() {
 void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   Context& context = current();
   glDispatchCompute(x, y, z);
-  context.check();
+  context.check_told();
 }
 
 void dispatch_indirect(std::uint64_t offset) {
   Context& context = current();
   glDispatchComputeIndirect(static_cast<GLintptr>(offset));
-  context.check();
+  context.check_told();
+}
+
+void copy(const Buffer& from, const Buffer& to, std::uint64_t bytes) {
+  Context& context = current();
+  glBindBuffer(GL_COPY_READ_BUFFER, from.id());
+  glBindBuffer(GL_COPY_WRITE_BUFFER, to.id());
+  glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, static_cast<GLsizeiptr>(bytes));
+  context.check_told();
 }
 
 }  // namespace firn::gpu

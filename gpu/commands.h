@@ -41,6 +41,8 @@ void forget_bindings();
 void dispatch(std::uint32_t x, std::uint32_t y, std::uint32_t z);
 void dispatch_indirect(std::uint64_t offset);  // three uint of the bound indirect buffer
 
+void copy(const Buffer& from, const Buffer& to, std::uint64_t bytes);  // glCopyBufferSubData, from the start of each
+
 enum class Topology { points, lines, triangles, triangle_strip, patches };
 enum class DepthTest { off, less, less_equal, always };
 enum class Blend { off, alpha, additive, minimum, maximum };
@@ -68,22 +70,24 @@ class TimerRing {
   TimerRing& operator=(const TimerRing&) = delete;
 
   struct Sample {
-    int tag = 0;
+    std::int64_t tag = 0;
+    double start = 0;  // s since the ring was made
     double seconds = 0;
   };
   // Marks the start and the end of one piece of work. A full ring collects (waiting) before it goes on.
-  void begin(int tag);
+  void begin(std::int64_t tag);
   void end();
   std::vector<Sample> collect(bool wait);
 
  private:
   struct Slot {
     std::uint32_t start = 0, stop = 0;
-    int tag = 0;
+    std::int64_t tag = 0;
   };
   void take_finished(bool wait);
 
   std::vector<Slot> slots_;
+  std::uint64_t made_ = 0;           // the device's time, ns
   std::size_t head_ = 0, tail_ = 0;  // numbers of the next slot to begin and the oldest not taken
   bool running_ = false;             // between begin() and end()
   std::vector<Sample> done_;

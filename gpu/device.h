@@ -76,7 +76,7 @@ class Device {
   void label(const char* text);
 
   // Throws DriverError where the driver reported an error since the last call (DeviceError where it ran out of memory). Every gpu/
-  // call that can fail does this itself.
+  // call that can fail does this itself, save that commands (commands.h) do not ask a driver which tells no errors by itself.
   void check() const;
 
   void finish();

@@ -33,6 +33,9 @@ TimerRing::TimerRing(int slots) : slots_(std::max(slots, 1)) {
     glGenQueries(1, &slot.start);
     glGenQueries(1, &slot.stop);
   }
+  GLint64 now = 0;
+  glGetInteger64v(GL_TIMESTAMP, &now);
+  made_ = static_cast<std::uint64_t>(now);
   context.check();
 }
 
@@ -44,14 +47,14 @@ TimerRing::~TimerRing() {
   }
 }
 
-void TimerRing::begin(int tag) {
+void TimerRing::begin(std::int64_t tag) {
   if (running_) throw std::logic_error("TimerRing::begin() before the end() of the work before");
   Context& context = current();
   if (head_ - tail_ == slots_.size()) take_finished(true);
   Slot& slot = slots_[head_ % slots_.size()];
   slot.tag = tag;
   glQueryCounter(slot.start, GL_TIMESTAMP);
-  context.check();
+  context.check_told();
   running_ = true;
 }
 
@@ -61,7 +64,7 @@ void TimerRing::end() {
   glQueryCounter(slots_[head_ % slots_.size()].stop, GL_TIMESTAMP);
   ++head_;
   running_ = false;
-  context.check();
+  context.check_told();
 }
 
 void TimerRing::take_finished(bool wait) {
@@ -70,14 +73,17 @@ void TimerRing::take_finished(bool wait) {
     if (!wait && !is_ready(slot.stop)) return;
     const std::uint64_t start = nanoseconds(slot.start);
     const std::uint64_t stop = nanoseconds(slot.stop);
-    done_.push_back({slot.tag, stop > start ? 1e-9 * static_cast<double>(stop - start) : 0.0});
+    const auto between = [](std::uint64_t from, std::uint64_t to) {
+      return to > from ? 1e-9 * static_cast<double>(to - from) : 0.0;
+    };
+    done_.push_back({slot.tag, between(made_, start), between(start, stop)});
   }
 }
 
 std::vector<TimerRing::Sample> TimerRing::collect(bool wait) {
   Context& context = current();
   take_finished(wait);
-  context.check();
+  context.check_told();
   return std::exchange(done_, {});
 }
 

@@ -29,6 +29,8 @@ static_assert(static_cast<std::uint32_t>(gpu::BarrierBit::shader_storage) == gra
                   static_cast<std::uint32_t>(gpu::BarrierBit::command) == graph::bit_command,
               "plan bits are passed on as they are");
 
+constexpr std::int64_t most_works = 1024;  // of one stage
+
 struct ClockBlock {  // std140, as graph/glsl.cpp declares it
   float dt = 0, time = 0;
   std::uint32_t step = 0, frame = 0;
@@ -52,7 +54,10 @@ struct Execution::Parts {
   std::vector<std::unique_ptr<graph::HostStage>> host;  // by stage; empty where it has no host work
   gpu::Buffer clock_block;
   gpu::Buffer faults;  // per stage and kind: count, 0xffffffff - first step
-  std::unique_ptr<gpu::TimerRing> timers;
+  bool timing = false;
+  std::unique_ptr<gpu::TimerRing> timers;  // made when first needed; never on software renderers
+  std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
+  double ring_made = 0;  // s since `begin`
   std::vector<PassTime> clock_times;
   struct Turns {
     std::uint64_t rounds = 0, turns = 0;
@@ -77,8 +82,30 @@ struct Execution::Parts {
       }
       host.push_back(has_host_work ? registry.find(stage.spec.name)->host(stage.parameters) : nullptr);
     }
-    if (options.profile && !device.info().software) timers = std::make_unique<gpu::TimerRing>(4096);
+    time_passes(options.profile);
   }
+
+  void time_passes(bool on) {
+    timing = on;
+    if (!on || timers || device.info().software) return;
+    device.finish();  // else the ring's start would be later than the clock's
+    timers = std::make_unique<gpu::TimerRing>(4096);
+    ring_made = now();
+  }
+
+  // Step, stage and work in one number, and back.
+  [[nodiscard]] std::int64_t tag_of(const graph::Run& run) const {
+    const auto stages = static_cast<std::int64_t>(plan.stages.size());
+    return (static_cast<std::int64_t>(clock.step) * stages + run.stage) * most_works + run.work;
+  }
+  [[nodiscard]] PassTime pass_of(const gpu::TimerRing::Sample& sample) const {
+    const auto stages = static_cast<std::int64_t>(plan.stages.size());
+    const std::int64_t stage = sample.tag / most_works;
+    return {static_cast<int>(stage % stages), static_cast<int>(sample.tag % most_works), static_cast<std::uint64_t>(stage / stages),
+            ring_made + sample.start, sample.seconds};
+  }
+
+  [[nodiscard]] double now() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); }
 
   void upload_clock() {
     const ClockBlock block{static_cast<float>(clock.dt), static_cast<float>(clock.time), static_cast<std::uint32_t>(clock.step),
@@ -184,24 +211,23 @@ void Execution::Parts::work(const graph::Run& run, std::uint64_t turn) {
   if (std::holds_alternative<graph::HostWork>(stage.spec.work[static_cast<std::size_t>(run.work)])) {
     const double before = clock.dt;
     Context context(stage, plan, memory, clock);
+    const double start = now();
     host[s]->run(context);
+    if (timing) clock_times.push_back({run.stage, run.work, clock.step, start, now() - start});
     if (clock.dt != before) upload_clock();
     return;
   }
   // A software renderer's timestamps say nothing of draws, which it does later, nor of what comes between: there the processor's
   // clock.
-  const bool by_clock = options.profile && device.info().software;
-  std::chrono::steady_clock::time_point start;
-  if (by_clock) {
-    device.finish();
-    start = std::chrono::steady_clock::now();
-  }
-  if (timers) timers->begin(run.stage * 64 + run.work);
+  const bool by_clock = timing && !timers;
+  if (by_clock) device.finish();
+  const double start = timing ? now() : 0;
+  if (timing && timers) timers->begin(tag_of(run));
   run_kernel(plan, run, kernels[s][static_cast<std::size_t>(run.work)], memory, parameters[s], clock_block, faults);
-  if (timers) timers->end();
+  if (timing && timers) timers->end();
   if (by_clock) {
     device.finish();
-    clock_times.push_back({run.stage, run.work, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
+    clock_times.push_back({run.stage, run.work, clock.step, start, now() - start});
   }
   if (options.barriers_all) gpu::memory_barrier_all();
 }
@@ -300,12 +326,14 @@ std::vector<RepeatTurns> Execution::turns() const {
   return list;
 }
 
-std::vector<PassTime> Execution::take_times() {
+void Execution::time_passes(bool on) { parts_->time_passes(on); }
+
+std::vector<PassTime> Execution::take_times(bool wait) {
   std::vector<PassTime> times;
   std::swap(times, parts_->clock_times);
   if (!parts_->timers) return times;
-  for (const gpu::TimerRing::Sample& sample : parts_->timers->collect(true))
-    times.push_back({sample.tag / 64, sample.tag % 64, sample.seconds});
+  for (const gpu::TimerRing::Sample& sample : parts_->timers->collect(wait))
+    times.push_back(parts_->pass_of(sample));
   return times;
 }
 

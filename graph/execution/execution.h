@@ -30,6 +30,8 @@ struct Options {
 struct PassTime {
   int stage = 0;
   int work = 0;
+  std::uint64_t step = 0;  // of the clock
+  double start = 0;  // s since the execution was made
   double seconds = 0;
 };
 
@@ -72,7 +74,11 @@ class Execution {
   [[nodiscard]] std::vector<std::byte> read(const std::string& buffer) const;
   void write(const std::string& buffer, std::span<const std::byte> data);
 
-  std::vector<PassTime> take_times();
+  // Pieces of work from now on; at first as Options::profile says. Times are the device's timestamps, taken in a ring and read when
+  // they are there; on software renderers, and for host work everywhere, the processor's clock.
+  void time_passes(bool on);
+  // Those not taken yet. Without `wait` only those that can be had at once.
+  std::vector<PassTime> take_times(bool wait = true);
 
  private:
   struct Parts;

@@ -30,7 +30,7 @@ TEST_CASE("a timer gives positive times, in order and with their tags") {
 
   TimerRing timers(8);
   CHECK(timers.collect(true).empty());
-  for (int tag = 10; tag < 13; ++tag) {
+  for (std::int64_t tag = 10; tag < 13; ++tag) {
     timers.begin(tag);
     dispatch(256, 1, 1);
     timers.end();
@@ -53,8 +53,8 @@ TEST_CASE("a full timer ring loses nothing") {
   use(program);
   bind_storage(0, data);
   TimerRing timers(3);
-  std::vector<int> tags;
-  for (int tag = 0; tag < 20; ++tag) {
+  std::vector<std::int64_t> tags;
+  for (std::int64_t tag = 0; tag < 20; ++tag) {
     timers.begin(tag);
     dispatch(1, 1, 1);
     timers.end();
@@ -64,7 +64,7 @@ TEST_CASE("a full timer ring loses nothing") {
   }
   for (const TimerRing::Sample& sample : timers.collect(true)) tags.push_back(sample.tag);
   REQUIRE(tags.size() == 20);
-  for (int tag = 0; tag < 20; ++tag) CHECK(tags[tag] == tag);
+  for (std::int64_t tag = 0; tag < 20; ++tag) CHECK(tags[tag] == tag);
 }
 
 TEST_CASE("begin and end of a timer must alternate") {

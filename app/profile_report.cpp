@@ -1,0 +1,117 @@
+#include <fmt/format.h>
+
+#include "app/profile.h"
+#include "app/statistics.h"
+
+namespace firn::app {
+namespace {
+
+using nlohmann::json;
+
+double share_of_bandwidth(const Profile& profile, const ProfiledPass& pass) {
+  return profile.speed.bandwidth() > 0 ? pass.bytes_per_second() / profile.speed.bandwidth() : 0;
+}
+
+double share_of_time(const Profile& profile, const ProfiledPass& pass) {
+  const double total = profile.total();
+  return total > 0 ? pass.total() / total : 0;
+}
+
+}  // namespace
+
+std::string as_table(const Profile& profile) {
+  std::string text = fmt::format("{} on {}, {}\n\n", profile.pipeline, profile.scene, profile.device);
+  text += fmt::format("{:<28} {:<34} {:>8} {:>10} {:>10} {:>7} {:>9} {:>8} {:>7}  {}\n", "stage", "work", "per step", "median us",
+                      "p90 us", "share", "MB", "GB/s", "of copy", "held back by");
+  for (const ProfiledPass& pass : profile.passes) {
+    const double launches = static_cast<double>(pass.seconds.size()) / static_cast<double>(profile.steps);
+    const std::string bytes = pass.host ? fmt::format("{:>9} {:>8} {:>7}", "-", "-", "-")
+                                        : fmt::format("{:>9.3f} {:>8.2f} {:>6.1f}%", 1e-6 * pass.bytes(),
+                                                      1e-9 * pass.bytes_per_second(), 100 * share_of_bandwidth(profile, pass));
+    text += fmt::format("{:<28} {:<34} {:>8.2f} {:>10.1f} {:>10.1f} {:>6.1f}% {}  {}\n", pass.stage, pass.work, launches,
+                        1e6 * median(pass.seconds), 1e6 * quantile(pass.seconds, 0.9), 100 * share_of_time(profile, pass), bytes,
+                        profile.held_back_by(pass));
+  }
+  const double steps = static_cast<double>(profile.steps);
+  text += fmt::format("\n{} steps: {:.3f} ms a step in passes, {:.3f} ms by the clock on the wall\n", profile.steps,
+                      1e3 * profile.total() / steps, 1e3 * profile.wall);
+  if (profile.cost)
+    text += fmt::format("timing makes a step {:.1f} % longer (medians of blocks of steps in turn)\n", 100 * *profile.cost);
+  text += fmt::format("times by {}\n", profile.clock);
+  text += fmt::format(
+      "MB: as if every element were read or written once; beyond all of copy, caches hold them or some are left out\n"
+      "the device copies {}, multiplies and adds {}, and needs {:.2f} us from launch to launch\n",
+      in_words(profile.speed.bandwidth(), "B"), in_words(profile.speed.multiply_add, "FLOP"), 1e6 * profile.speed.launch);
+  return text;
+}
+
+json as_json(const Profile& profile) {
+  json passes = json::array();
+  for (const ProfiledPass& pass : profile.passes) {
+    json buffers = json::array();
+    double read = 0, written = 0;
+    for (const Traffic& one : pass.traffic) {
+      buffers.push_back(
+          {{"buffer", one.buffer}, {"access", one.access}, {"usage", one.usage}, {"read", one.read}, {"written", one.written}});
+      read += one.read;
+      written += one.written;
+    }
+    json entry = {{"stage", pass.stage},
+                  {"work", pass.work},
+                  {"elements", pass.elements},
+                  {"launches", pass.seconds.size()},
+                  {"median", median(pass.seconds)},
+                  {"p90", quantile(pass.seconds, 0.9)},
+                  {"total", pass.total()},
+                  {"share", share_of_time(profile, pass)},
+                  {"held_back_by", profile.held_back_by(pass)}};
+    if (!pass.host)
+      entry.update({{"bytes_read", read},
+                    {"bytes_written", written},
+                    {"bytes_per_second", pass.bytes_per_second()},
+                    {"share_of_copy", share_of_bandwidth(profile, pass)},
+                    {"buffers", buffers}});
+    passes.push_back(entry);
+  }
+  json result = {{"pipeline", profile.pipeline},    {"scene", profile.scene}, {"device", profile.device},
+                 {"clock", profile.clock},          {"steps", profile.steps}, {"seconds_per_step", profile.wall},
+                 {"speed", as_json(profile.speed)}, {"passes", passes}};
+  if (profile.cost) result["cost"] = *profile.cost;
+  return result;
+}
+
+// One row for steps, one for their passes; times in microseconds, as the format has them.
+json as_trace(const Profile& profile) {
+  const int process = 1, steps_row = 1, passes_row = 2;
+  const auto named = [&](const char* what, int row, const std::string& name) {
+    return json{{"ph", "M"}, {"name", what}, {"pid", process}, {"tid", row}, {"args", {{"name", name}}}};
+  };
+  json events = {named("process_name", steps_row, fmt::format("{} on {}", profile.pipeline, profile.device)),
+                 named("thread_name", steps_row, "steps"), named("thread_name", passes_row, "passes")};
+  const auto bar = [&](const std::string& name, const char* category, int row, double start, double seconds) {
+    return json{{"ph", "X"},  {"name", name},      {"cat", category},     {"pid", process},
+                {"tid", row}, {"ts", 1e6 * start}, {"dur", 1e6 * seconds}};
+  };
+  struct Span {
+    double begin = 0, end = 0;
+  };
+  std::vector<Span> steps;
+  for (const ProfiledLaunch& launch : profile.launches) {
+    const ProfiledPass& pass = profile.passes[launch.pass];
+    json event = bar(pass.stage, pass.host ? "host" : "device", passes_row, launch.start, launch.seconds);
+    event["args"] = {{"work", pass.work}, {"step", launch.step}};
+    if (!pass.host) event["args"]["bytes"] = pass.bytes();
+    events.push_back(event);
+    if (launch.step >= steps.size()) steps.resize(launch.step + 1, {launch.start, launch.start + launch.seconds});
+    Span& step = steps[launch.step];
+    step = {std::min(step.begin, launch.start), std::max(step.end, launch.start + launch.seconds)};
+  }
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    events.push_back(bar(fmt::format("step {}", i), "step", steps_row, steps[i].begin, steps[i].end - steps[i].begin));
+  return {{"displayTimeUnit", "ms"},
+          {"traceEvents", events},
+          {"otherData",
+           {{"pipeline", profile.pipeline}, {"scene", profile.scene}, {"device", profile.device}, {"clock", profile.clock}}}};
+}
+
+}  // namespace firn::app
