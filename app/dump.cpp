@@ -8,7 +8,8 @@
 
 namespace firn::app {
 
-void check_dumps(const std::vector<NamedFile>& dumps, const graph::Plan& plan, config::Diagnostics& diagnostics) {
+void check_dumps(const std::vector<NamedFile>& dumps, const graph::Plan& plan, const std::filesystem::path& output,
+                 config::Diagnostics& diagnostics) {
   std::vector<std::string> names;
   for (const graph::PlannedBuffer& buffer : plan.buffers)
     if (!graph::is_texel(buffer.type)) names.push_back(buffer.name);
@@ -16,7 +17,9 @@ void check_dumps(const std::vector<NamedFile>& dumps, const graph::Plan& plan, c
     if (std::ranges::find(names, dump.name) == names.end())
       diagnostics.error(dump.place,
                         fmt::format("no buffer '{}' in this pipeline{}", dump.name, config::suggestion(dump.name, names)));
-  check_folders(dumps, diagnostics);
+  std::vector<NamedFile> elsewhere = dumps;
+  std::erase_if(elsewhere, [&](const NamedFile& dump) { return std::filesystem::path(dump.file).parent_path() == output; });
+  check_folders(elsewhere, diagnostics);
 }
 
 }  // namespace firn::app

@@ -1,64 +1,99 @@
 #include "app/manifest.h"
 
-#include <fmt/format.h>
+#include <algorithm>
 
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
-
+#include "app/files.h"
+#include "app/metrics.h"
+#include "app/sha256.h"
 #include "app/version.h"
 
 namespace firn::app {
 namespace {
 
-nlohmann::json stages_json(const graph::Plan& plan) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const graph::PlannedStage& stage : plan.stages) {
-    nlohmann::json parameters = nlohmann::json::object();
-    for (const auto& [name, value] : stage.parameters) std::visit([&, key = name](const auto& v) { parameters[key] = v; }, value);
-    nlohmann::json buffers = nlohmann::json::object();
-    for (std::size_t p = 0; p < stage.buffers.size(); ++p)
-      if (stage.buffers[p] >= 0) buffers[stage.spec.ports[p].name] = plan.buffers[static_cast<std::size_t>(stage.buffers[p])].name;
-    list.push_back({{"stage", stage.label}, {"parameters", parameters}, {"buffers", buffers}, {"every", stage.every}});
-  }
-  return list;
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json limits_json(const gpu::Limits& limits) {
+  return {{"storage_blocks_compute", limits.storage_blocks_compute},
+          {"storage_bindings", limits.storage_bindings},
+          {"storage_block_bytes", limits.storage_block_bytes},
+          {"uniform_blocks_compute", limits.uniform_blocks_compute},
+          {"uniform_block_bytes", limits.uniform_block_bytes},
+          {"texture_units_compute", limits.texture_units_compute},
+          {"texture_buffer_texels", limits.texture_buffer_texels},
+          {"texture_size", limits.texture_size},
+          {"groups", limits.groups},
+          {"group_invocations", limits.group_invocations},
+          {"shared_bytes", limits.shared_bytes},
+          {"memory_bytes", limits.memory_bytes}};
 }
 
 }  // namespace
 
-nlohmann::json manifest(const Loaded& loaded, const gpu::DeviceInfo& device, const RunFacts& facts) {
-  nlohmann::json sizes = nlohmann::json::object();
-  for (const auto& [name, size] : loaded.plan.environment.domains) sizes[name] = size.count;
-  return {{"firn", version()},
-          {"command", facts.command},
-          {"started", facts.started},
-          {"pipeline", {{"file", loaded.pipeline_file}, {"name", loaded.pipeline.name}, {"stages", stages_json(loaded.plan)}}},
-          {"scene",
-           {{"file", loaded.scene_file},
-            {"name", loaded.problem->scene.name},
-            {"seed", loaded.problem->scene.seed},
-            {"resolved", config::to_yaml(loaded.scene_node)}}},
-          {"sizes", sizes},
-          {"device", {{"name", device.name}, {"vendor", device.vendor}, {"version", device.version}}},
-          {"result",
-           {{"exit_status", facts.exit_status},
-            {"message", facts.message},
-            {"steps", facts.steps},
-            {"frames", facts.frames},
-            {"simulated_seconds", facts.time},
-            {"seconds", facts.seconds}}}};
+json program_json() {
+  const Revision built_from = revision();
+  return {{"firn", version()}, {"revision", {{"commit", built_from.commit}, {"changes", built_from.changes}}}};
 }
 
-void write_manifest(const std::string& file, const nlohmann::json& manifest) {
-  const std::string beside = file + ".part";
-  {
-    std::ofstream out(beside);
-    // File names need not be UTF-8, JSON must be.
-    out << manifest.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
-    out.flush();
-    if (!out) throw std::runtime_error(fmt::format("cannot write {}", file));
-  }
-  std::filesystem::rename(beside, file);
+json manifest(const Loaded& loaded, const json& identity, const gpu::DeviceInfo& device, const RunOptions& options,
+              const RunFacts& facts) {
+  json result = program_json();
+  result.update(
+      {{"command", facts.command},
+       {"started", facts.started},
+       {"resumed_from", facts.resumed_from},
+       {"inputs", to_json(options)},
+       {"pipeline", identity.at("pipeline")},
+       {"scene",
+        {{"file", loaded.scene_file},
+         {"name", loaded.problem->scene.name},
+         {"seed", loaded.problem->scene.seed},
+         {"resolved", identity.at("scene")}}},
+       {"files", identity.at("files")},
+       {"sizes", identity.at("sizes")},
+       {"shaders", identity.at("shaders")},
+       {"device",
+        {{"name", device.name}, {"vendor", device.vendor}, {"version", device.version}, {"limits", limits_json(device.limits)}}},
+       {"result",
+        {{"exit_status", facts.exit_status ? json(*facts.exit_status) : json()},
+         {"message", facts.message},
+         {"ended", facts.exit_status ? json(now_in_utc()) : json()},
+         {"steps", facts.steps},
+         {"frames", facts.frames},
+         {"simulated_seconds", facts.time},
+         {"seconds", facts.seconds}}},
+       {"outputs", facts.outputs}});
+  result["pipeline"]["file"] = loaded.pipeline_file;
+  return result;
+}
+
+json identity_in(const json& manifest) {
+  json identity = json::object();
+  for (const char* part : {"pipeline", "files", "sizes", "shaders"})
+    identity[part] = manifest.contains(part) && manifest[part].is_object() ? manifest[part] : json::object();
+  if (manifest.contains("scene") && manifest["scene"].is_object()) identity["scene"] = manifest["scene"].value("resolved", json());
+  return identity;
+}
+
+void write_manifest(const fs::path& file, const json& manifest) {
+  // File names need not be UTF-8, JSON must be.
+  replace_file(file, manifest.dump(2, ' ', false, json::error_handler_t::replace) + "\n");
+}
+
+json hashes_of_outputs(const fs::path& run, const std::vector<NamedFile>& dumps) {
+  json hashes = json::object();
+  const auto add = [&](const fs::path& file) { hashes[fs::relative(file, run).string()] = sha256_of(file); };
+  if (const fs::path metrics = run / "metrics.csv"; fs::is_regular_file(metrics)) hashes["metrics.csv"] = hash_of_metrics(metrics);
+  if (const fs::path film = run / "video.mp4"; fs::is_regular_file(film)) add(film);
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(run / "frames", error))
+    if (const std::string name = entry.path().filename().string(); name.starts_with("frame_") && name.ends_with(".png"))
+      add(entry.path());
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(run / "export", error))
+    if (entry.is_regular_file() && entry.path().extension() != ".part") add(entry.path());
+  for (const NamedFile& dump : dumps)
+    if (fs::is_regular_file(dump.file)) hashes["dump " + dump.name] = sha256_of(dump.file);
+  return hashes;
 }
 
 }  // namespace firn::app

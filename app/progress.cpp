@@ -18,7 +18,8 @@ std::string clock_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(double total, bool quiet) : total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(double total, bool quiet, double done_before, std::uint64_t steps_before)
+    : total_(total), done_before_(done_before), steps_before_(steps_before), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
 
 Progress::~Progress() { finish(); }
 
@@ -35,8 +36,11 @@ void Progress::update(double done, std::uint64_t frame, std::uint64_t step) {
 void Progress::print(double done, std::uint64_t frame, std::uint64_t step) {
   const double share = total_ > 0 ? std::clamp(done / total_, 0.0, 1.0) : 1.0;
   const double passed = std::chrono::duration<double>(Clock::now() - start_).count();
-  const double rate = passed > 0 ? static_cast<double>(step) / passed : 0;
-  const std::string left = share >= 1 ? "0:00" : share > 0 && passed > 2 ? clock_text(passed * (1 - share) / share) : "?";
+  const double rate = passed > 0 ? static_cast<double>(step - steps_before_) / passed : 0;
+  const double share_now = total_ > done_before_ ? std::clamp((done - done_before_) / (total_ - done_before_), 0.0, 1.0) : 1.0;
+  const std::string left = share >= 1                    ? "0:00"
+                           : share_now > 0 && passed > 2 ? clock_text(passed * (1 - share_now) / share_now)
+                                                         : "?";
   if (terminal_) {
     constexpr int width = 30;
     const auto filled = static_cast<std::size_t>(share * width);

@@ -9,8 +9,8 @@ namespace firn::app {
 
 class Progress {
  public:
-  // `total`: what is to be done, in the unit of update(). Silent where `quiet`.
-  Progress(double total, bool quiet);
+  // `total`: what is to be done, in the unit of update(). Silent where `quiet`. A run that goes on has something of it behind it.
+  Progress(double total, bool quiet, double done_before = 0, std::uint64_t steps_before = 0);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -23,7 +23,8 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   void print(double done, std::uint64_t frame, std::uint64_t step);
 
-  double total_;
+  double total_, done_before_;
+  std::uint64_t steps_before_;
   bool quiet_, terminal_;
   struct Update {
     double done = 0;

@@ -16,7 +16,7 @@ void watch_signals() {
 }
 
 Ending simulate(execution::Execution& execution, const scene::Time& time, const Until& until, bool check_every_step,
-                const std::function<void(const graph::Clock&)>& after_step) {
+                const std::function<void(const graph::Clock&)>& after_step, Start start) {
   graph::Clock& clock = execution.clock();
   // Times are compared with room for the rounding of many additions.
   constexpr double slack = 1e-9;
@@ -28,9 +28,12 @@ Ending simulate(execution::Execution& execution, const scene::Time& time, const 
   };
   constexpr std::uint64_t steps_between_checks = 64;
 
-  execution.setup();
-  execution.check_faults();
-  if (!until.frames || *until.frames > 0) execution.frame();
+  if (start == Start::fresh) {
+    execution.setup();
+    execution.check_faults();
+    if (!until.frames || *until.frames > 0) execution.frame();
+    after_step(clock);
+  }
   while (!over()) {
     if (interrupted_by_user) return Ending::interrupted;
     // A step of automatic length ends at the next frame at the latest.

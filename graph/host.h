@@ -56,6 +56,12 @@ class HostStage {
   virtual ~HostStage() = default;
   virtual void run(HostContext& context) = 0;
   virtual void finish() {}  // once, after the last frame of a run that ended well
+  // A checkpoint follows: everything that run() was given until now is in files when this returns, so that a run which dies later
+  // and goes on from there misses nothing.
+  virtual void flush() {}
+  // The run goes on from a checkpoint instead of from the start: `clock` has the next frame. Called before any run(); what an
+  // earlier process wrote of this and later frames is void.
+  virtual void resume(const Clock& clock) { static_cast<void>(clock); }
 };
 
 using HostFactory = std::function<std::unique_ptr<HostStage>(const ParameterValues& parameters)>;

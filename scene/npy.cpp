@@ -231,20 +231,12 @@ void write_array(const std::filesystem::path& file, const NpyShape& shape, NpyKi
   const std::string name = file.string();
   if (count_of(shape, name) != count)
     fail(name, fmt::format("an array of shape {} cannot be written from {} values", to_string(shape), count));
-  std::string dictionary =
-      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': {}, }}", info(kind).descriptor, to_string(shape));
-  // Values start at a multiple of 64 bytes, so that the file can be mapped into memory.
-  const std::size_t unpadded = 10 + dictionary.size() + 1;
-  dictionary.append((64 - unpadded % 64) % 64, ' ');
-  dictionary += '\n';
-  if (dictionary.size() >= longest_header) fail(name, "an array of this many dimensions cannot be written");
+  const std::string header = npy_header(kind, shape);
+  if (header.size() >= longest_header) fail(name, "an array of this many dimensions cannot be written");
 
   std::ofstream stream(file, std::ios::binary | std::ios::trunc);
   if (!stream) fail(name, "cannot be opened for writing");
-  stream.write(magic.data(), static_cast<std::streamsize>(magic.size()));
-  const char prelude[] = {1, 0, static_cast<char>(dictionary.size() & 0xff), static_cast<char>(dictionary.size() >> 8)};
-  stream.write(prelude, sizeof(prelude));
-  stream.write(dictionary.data(), static_cast<std::streamsize>(dictionary.size()));
+  stream.write(header.data(), static_cast<std::streamsize>(header.size()));
   stream.write(static_cast<const char*>(values), static_cast<std::streamsize>(count * info(kind).bytes));
   stream.close();
   if (!stream) fail(name, "cannot be written to its end; is the disk full?");
@@ -256,6 +248,17 @@ std::string to_string(NpyKind kind) { return std::string(info(kind).name); }
 
 std::string to_string(const NpyShape& shape) {
   return shape.size() == 1 ? fmt::format("({},)", shape[0]) : fmt::format("({})", fmt::join(shape, ", "));
+}
+
+std::string npy_header(NpyKind kind, const NpyShape& shape) {
+  std::string dictionary =
+      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': {}, }}", info(kind).descriptor, to_string(shape));
+  // Values start at a multiple of 64 bytes, so that the file can be mapped into memory.
+  const std::size_t unpadded = 10 + dictionary.size() + 1;
+  dictionary.append((64 - unpadded % 64) % 64, ' ');
+  dictionary += '\n';
+  const char prelude[] = {1, 0, static_cast<char>(dictionary.size() & 0xff), static_cast<char>(dictionary.size() >> 8)};
+  return std::string(magic) + std::string(prelude, sizeof(prelude)) + dictionary;
 }
 
 NpyHeader parse_npy_header(std::string_view bytes, const std::string& name) {

@@ -39,6 +39,9 @@ NpyArray parse_npy(std::string_view bytes, const std::string& name);
 NpyHeader read_npy_header(const std::filesystem::path& file);
 NpyArray read_npy(const std::filesystem::path& file);
 
+// What stands before the values of an array: version 1, a multiple of 64 bytes.
+std::string npy_header(NpyKind kind, const NpyShape& shape);
+
 // `values` holds as many values as the shape says. An existing file is replaced.
 void write_npy(const std::filesystem::path& file, const NpyShape& shape, std::span<const float> values);
 void write_npy(const std::filesystem::path& file, const NpyShape& shape, std::span<const double> values);

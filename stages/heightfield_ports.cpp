@@ -1,5 +1,6 @@
 #include "stages/heightfield_ports.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace firn::stages::heightfield {

@@ -267,6 +267,18 @@ void Execution::finish() {
     if (stage) stage->finish();
 }
 
+void Execution::flush() {
+  check_faults();
+  for (const auto& stage : parts_->host)
+    if (stage) stage->flush();
+}
+
+void Execution::resume(const graph::Clock& clock) {
+  parts_->clock = clock;
+  for (const auto& stage : parts_->host)
+    if (stage) stage->resume(clock);
+}
+
 void Execution::check_faults() {
   const std::size_t slots = parts_->plan.stages.size() * graph::fault_kinds;
   if (slots == 0) return;
@@ -300,6 +312,11 @@ std::vector<std::byte> Execution::read(const std::string& name) const {
 void Execution::write(const std::string& name, std::span<const std::byte> data) {
   const int index = parts_->plan.buffer(name);
   if (index < 0) throw std::out_of_range(fmt::format("no buffer '{}'", name));
+  if (const auto b = static_cast<std::size_t>(index); parts_->plan.buffers[b].texture) {
+    gpu::memory_barrier(graph::bit_texture_update);
+    parts_->memory.textures[b].upload(data);
+    return;
+  }
   gpu::memory_barrier(graph::bit_buffer_update);
   parts_->memory.buffer(index).upload(0, data);
 }

@@ -61,6 +61,11 @@ class Execution {
   void frame();
   void finish();
 
+  // Before a checkpoint: everything that stages write is in files. Faults are told before.
+  void flush();
+  // Instead of setup(), once the buffers that graph/carried.h names have their contents by write(): the clock goes on from there.
+  void resume(const graph::Clock& clock);
+
   // Waits for the device.
   [[nodiscard]] std::vector<RepeatTurns> turns() const;
 

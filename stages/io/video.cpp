@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -28,13 +30,15 @@ bool has_x264(const fs::path& ffmpeg, const fs::path& scratch) {
   return list.find("libx264 ") != std::string::npos;
 }
 
+// A film is one file as long as nothing asks for more. Where checkpoints are written, each ends a part in video.parts/, so that a
+// run which goes on from one loses no picture; the parts are joined without being encoded again.
 class Video final : public graph::HostStage {
  public:
   Video(std::shared_ptr<const Problem> problem, int loss) : problem_(std::move(problem)), loss_(loss), folder_(problem_->output) {}
 
   // A run that ended in an error leaves the film up to there.
   ~Video() override {
-    if (!encoder_) return;
+    if (!encoder_ && parts_.empty()) return;
     try {
       finish();
     } catch (const std::exception& error) {
@@ -49,24 +53,53 @@ class Video final : public graph::HostStage {
     const graph::PortView view = context.view("image");
     if (!encoder_) start(view.width, view.height);
     if (!encoder_) return;
+    last_ = context.clock().frame;
+    if (!first_) first_ = last_;
     const Picture picture = picture_of(context.read("image"), view.width, view.height);
     if (!encoder_->feed(std::as_bytes(std::span(picture.rgb)))) fail(encoder_->finish());
   }
 
-  void finish() override {
+  void flush() override {
     if (!encoder_) return;
-    const int status = encoder_->finish();
-    if (status != 0) fail(status);
-    encoder_.reset();
+    end_encoder();
+    const fs::path name = parts_folder() / fmt::format("frames_{:08}_{:08}.mp4", *first_, last_);
+    first_.reset();
     std::error_code error;
-    fs::rename(part(), file(), error);
-    if (error) throw std::runtime_error(fmt::format("cannot write {}: {}", file().string(), error.message()));
+    fs::create_directories(parts_folder(), error);
+    rename(part(), name);
+    parts_.push_back(name);
+  }
+
+  void resume(const graph::Clock& clock) override {
+    std::error_code error;
+    for (const fs::directory_entry& entry : fs::directory_iterator(parts_folder(), error)) {
+      unsigned long long first = 0;
+      if (std::sscanf(entry.path().filename().c_str(), "frames_%llu_", &first) != 1) continue;
+      if (first < clock.frame)
+        parts_.push_back(entry.path());
+      else
+        fs::remove(entry.path(), error);
+    }
+    std::ranges::sort(parts_);
+  }
+
+  void finish() override {
+    if (parts_.empty()) {
+      if (!encoder_) return;
+      end_encoder();
+    } else {
+      flush();
+      join_parts();
+    }
+    rename(part(), file());
+    std::error_code error;
     if (fs::is_empty(log(), error) && !error) fs::remove(log(), error);
   }
 
  private:
   [[nodiscard]] fs::path file() const { return folder_ / "video.mp4"; }
   [[nodiscard]] fs::path part() const { return folder_ / "video.part.mp4"; }
+  [[nodiscard]] fs::path parts_folder() const { return folder_ / "video.parts"; }
   [[nodiscard]] fs::path log() const { return folder_ / "ffmpeg.log"; }
 
   void start(int width, int height) {
@@ -115,6 +148,32 @@ class Video final : public graph::HostStage {
     encoder_.emplace(ffmpeg, arguments, "", log());
   }
 
+  void end_encoder() {
+    if (const int status = encoder_->finish(); status != 0) fail(status);
+    encoder_.reset();
+  }
+
+  void join_parts() {
+    const fs::path ffmpeg = find_program("ffmpeg"), list = parts_folder() / "list.txt";
+    std::ofstream names(list);
+    for (const fs::path& each : parts_) names << "file " << each.filename().string() << '\n';
+    names.close();
+    if (!names) throw std::runtime_error(fmt::format("cannot write {}", list.string()));
+    encoder_.emplace(ffmpeg,
+                     std::vector<std::string>{"-hide_banner", "-loglevel", "warning", "-nostats", "-y", "-f", "concat", "-i",
+                                              list.string(), "-c", "copy", "-movflags", "+faststart", part().string()},
+                     "", log());
+    end_encoder();
+    std::error_code error;
+    fs::remove(list, error);
+  }
+
+  static void rename(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    fs::rename(from, to, error);
+    if (error) throw std::runtime_error(fmt::format("cannot write {}: {}", to.string(), error.message()));
+  }
+
   [[noreturn]] void fail(int status) {
     encoder_.reset();
     std::error_code error;
@@ -129,6 +188,9 @@ class Video final : public graph::HostStage {
   fs::path folder_;
   bool without_ffmpeg_ = false;
   std::optional<Process> encoder_;
+  std::optional<std::uint64_t> first_;  // frame of the part that is being written; none: it has no picture yet
+  std::uint64_t last_ = 0;
+  std::vector<fs::path> parts_;  // that are whole, in their order
 };
 
 }  // namespace

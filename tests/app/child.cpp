@@ -54,7 +54,8 @@ pid_t start(const Words& words, const Variables& variables, const std::string& o
   return child;
 }
 
-Outcome run(const Words& words, const Variables& variables, const std::string& cue, int signal) {
+// Sends `signal`, unless 0, once stderr holds `cue` and `wait` seconds are over.
+Outcome run(const Words& words, const Variables& variables, const std::string& cue, int signal, double wait = 0) {
   const Folder folder;
   const std::string out = folder / "out", err = folder / "err";
   const auto begin = std::chrono::steady_clock::now();
@@ -63,9 +64,11 @@ Outcome run(const Words& words, const Variables& variables, const std::string& c
   struct rusage usage {};
   if (signal != 0) {
     constexpr auto patience = std::chrono::seconds(60);
-    while (read_file(err).find(cue) == std::string::npos && std::chrono::steady_clock::now() - begin < patience &&
+    const auto passed = [&] { return std::chrono::steady_clock::now() - begin; };
+    const std::chrono::duration<double> least(wait);
+    while ((read_file(err).find(cue) == std::string::npos || passed() < least) && passed() < patience &&
            waitid(P_PID, static_cast<id_t>(child), nullptr, WEXITED | WNOHANG | WNOWAIT) == 0)
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
     kill(child, signal);
   }
   if (wait4(child, &state, 0, &usage) != child) throw std::runtime_error("cannot wait for " FIRN_PROGRAM);
@@ -107,5 +110,7 @@ std::string read_file(const std::filesystem::path& file) {
 Outcome run_firn(const Words& words, const Variables& variables) { return run(words, variables, "", 0); }
 
 Outcome run_firn_signalled(const Words& words, const std::string& cue, int signal) { return run(words, {}, cue, signal); }
+
+Outcome run_firn_killed(const Words& words, double seconds) { return run(words, {}, "", SIGKILL, seconds); }
 
 }  // namespace firn::test

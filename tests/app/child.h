@@ -41,6 +41,9 @@ Outcome run_firn(const Words& words, const Variables& variables = {});
 // As above, but sends `signal` as soon as stderr contains `cue`.
 Outcome run_firn_signalled(const Words& words, const std::string& cue, int signal);
 
+// As above, but kills it (SIGKILL) after so many seconds, unless it has ended by then.
+Outcome run_firn_killed(const Words& words, double seconds);
+
 std::string read_file(const std::filesystem::path& file);
 
 }  // namespace firn::test

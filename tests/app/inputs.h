@@ -52,11 +52,24 @@ bodies:
   - {sphere: {radius: 0.1}, position: [0.4, 0.2, 0.5], name: stone, mass: 2}
 )";
 
+// 48 x 48 cells; a ball that moves as told, and a box that falls.
+inline const std::string small_field = R"(firn: 1
+name: small_field
+time: {dt: 2.0e-3, fps: 100, end: 0.2}
+materials: {snow: {preset: new_snow}}
+field: {size: [3, 3], cells: [48, 48], ground: 0, depth: 0.4, density: 100, material: snow}
+bodies:
+  - {sphere: {radius: 0.4}, position: [1.0, 0.6, 1.5], velocity: [2, -0.5, 0], friction: 0.2}
+  - {box: {size: [0.4, 0.4, 0.4]}, position: [2, 0.7, 1], mass: 30}
+)";
+
 // `run PIPELINE` of a pipeline that comes with Firn, on a scene file, into `output`, without pictures.
 inline Words run_without_pictures(const std::string& pipeline, const std::string& scene, const std::string& output,
                                   const Words& more = {}) {
   Words words{"run", pipeline, "--scene", scene, "--out", output};
-  for (const char* stage : {"render.shadow_map", "render.background", "render.particles", "io.frames", "io.video"})
+  const std::string drawing = pipeline.starts_with("heightfield") ? "render.heightfield" : "render.particles";
+  for (const std::string& stage : {std::string("render.shadow_map"), std::string("render.background"), drawing,
+                                   std::string("io.frames"), std::string("io.video")})
     words.insert(words.end(), {"--disable", stage});
   words.insert(words.end(), more.begin(), more.end());
   return words;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "scene/npy.h"
@@ -134,20 +133,6 @@ TEST_CASE("a manifest is written whatever bytes the command line has", "[app]") 
   INFO(outcome.err);
   CHECK(outcome.status == 0);
   CHECK(nlohmann::json::parse(read_file(output + "/manifest.json")).at("result").at("steps") == 1);
-}
-
-TEST_CASE("a run removes nothing from its folder but what an earlier run wrote", "[app]") {
-  const Folder folder;
-  const std::string scene = folder.write("scene.yaml", small_scene);
-  std::filesystem::create_directories(folder / "out/frames");
-  const std::string own = folder.write("out/frames/holiday.jpg", "mine"),
-                    picture = folder.write("out/frames/frame_0007.png", "mine too");
-  REQUIRE(run_firn(run_without_pictures("mpm_snow", scene, folder / "out", {"--steps", "1"})).status == 0);
-  CHECK(std::filesystem::exists(own));
-  CHECK(std::filesystem::exists(picture));  // no manifest lay beside it: it was not ours
-  REQUIRE(run_firn(run_without_pictures("mpm_snow", scene, folder / "out", {"--steps", "1"})).status == 0);
-  CHECK(std::filesystem::exists(own));
-  CHECK_FALSE(std::filesystem::exists(picture));
 }
 
 TEST_CASE("an automatic time step meets every frame and is as long as the CFL condition allows", "[app]") {

@@ -1,0 +1,71 @@
+#include "app/run_options.h"
+
+#include <filesystem>
+
+#include "app/files.h"
+
+namespace firn::app {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+// Shipped files are found by their names; others where the run was started from.
+std::string found(const std::string& name, const std::string& folder, const std::string& started_in) {
+  if (name.empty() || fs::exists(find_input(name, folder))) return name;
+  const fs::path there = fs::path(started_in) / name;
+  return fs::exists(there) ? there.string() : name;
+}
+
+}  // namespace
+
+json to_json(const RunOptions& options) {
+  const Inputs& inputs = options.inputs;
+  json result{{"pipeline", inputs.pipeline},
+              {"scene", inputs.scene},
+              {"set", inputs.set},
+              {"disable", inputs.disable},
+              {"replace", inputs.replace},
+              {"image", inputs.image},
+              {"share_memory", inputs.share_memory},
+              {"repeats", inputs.repeats},
+              {"device", options.device},
+              {"barriers", options.barriers},
+              {"dump", options.dumps},
+              {"checkpoint_every", options.checkpoint_every},
+              {"keep_checkpoints", options.keep_checkpoints.value_or(default_keep)},
+              {"started_in", fs::current_path().string()}};
+  if (options.steps) result["steps"] = *options.steps;
+  if (options.frames) result["frames"] = *options.frames;
+  return result;
+}
+
+RunOptions options_from(const json& values, const std::string& file) {
+  RunOptions options;
+  try {
+    Inputs& inputs = options.inputs;
+    const std::string started_in = values.at("started_in");
+    inputs.pipeline = found(values.at("pipeline"), "pipelines", started_in);
+    inputs.scene = found(values.at("scene"), "pipelines/scenes", started_in);
+    values.at("set").get_to(inputs.set);
+    values.at("disable").get_to(inputs.disable);
+    values.at("replace").get_to(inputs.replace);
+    values.at("image").get_to(inputs.image);
+    values.at("share_memory").get_to(inputs.share_memory);
+    values.at("repeats").get_to(inputs.repeats);
+    values.at("device").get_to(options.device);
+    values.at("barriers").get_to(options.barriers);
+    values.at("dump").get_to(options.dumps);
+    values.at("checkpoint_every").get_to(options.checkpoint_every);
+    options.keep_checkpoints = values.at("keep_checkpoints").get<std::size_t>();
+    if (values.contains("steps")) options.steps = values.at("steps").get<std::uint64_t>();
+    if (values.contains("frames")) options.frames = values.at("frames").get<std::uint64_t>();
+  } catch (const json::exception& error) {
+    config::Diagnostics diagnostics;
+    diagnostics.error({file, 0, 0}, std::string("does not tell what the run was asked for: ") + error.what());
+    throw config::InputError(diagnostics);
+  }
+  return options;
+}
+
+}  // namespace firn::app

@@ -1,0 +1,62 @@
+#include "graph/carried.h"
+
+#include <algorithm>
+#include <map>
+
+#include "graph/buffer_uses.h"
+
+namespace firn::graph {
+namespace {
+
+bool clears(const Work& work, const Port& port) {
+  const auto* draw = std::get_if<Draw>(&work);
+  return draw != nullptr && draw->clear &&
+         (draw->depth == port.name || std::ranges::find(draw->colors, port.name) != draw->colors.end());
+}
+
+// Whether nothing of the buffer's former content is left, whenever this piece of work's turn has come.
+bool begins_anew(const Plan& plan, const Run& run, const BufferAccess& access) {
+  const PlannedStage& stage = plan.stages[static_cast<std::size_t>(run.stage)];
+  if (stage.every != 1 || run.groups.buffer >= 0 || access.access != Access::write) return false;
+  const Work& work = stage.spec.work[static_cast<std::size_t>(run.work)];
+  for (std::size_t p = 0; p < stage.buffers.size(); ++p)
+    if (stage.buffers[p] == access.buffer) {
+      const Port& port = stage.spec.ports[p];
+      if (clears(work, port) || writes_all(work, port, access.access)) return true;
+    }
+  return false;
+}
+
+using FirstUses = std::map<int, bool>;  // by buffer: whether its first use in a phase begins it anew
+
+void collect(const Plan& plan, const std::vector<Op>& ops, FirstUses& first) {
+  for (const Op& op : ops) {
+    if (const auto* run = std::get_if<Run>(&op.what))
+      for (const BufferAccess& access : run->accesses) first.emplace(access.buffer, begins_anew(plan, *run, access));
+    if (const auto* repeat = std::get_if<Repeat>(&op.what)) {
+      collect(plan, repeat->body, first);
+      if (repeat->until) {
+        first.emplace(repeat->until->buffer, false);
+        if (repeat->until->progress >= 0) first.emplace(repeat->until->progress, false);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<int> carried(const Plan& plan) {
+  FirstUses in_step, in_frame;
+  collect(plan, plan.step, in_step);
+  collect(plan, plan.frame, in_frame);
+  std::vector<int> buffers;
+  for (int b = 0; b < static_cast<int>(plan.buffers.size()); ++b)
+    if (std::ranges::any_of(std::vector{&in_step, &in_frame}, [&](const FirstUses* first) {
+          const auto found = first->find(b);
+          return found != first->end() && !found->second;
+        }))
+      buffers.push_back(b);
+  return buffers;
+}
+
+}  // namespace firn::graph
