@@ -29,7 +29,7 @@ std::vector<Form> forms() {
       {"gathered",
        "transfers_gathered",
        {},
-       {{"particles_to_grid", {"mpm.gather_to_grid"}}, {"grid_to_particles", back}, {"sort", {"mpm.sort", "mpm.active_blocks"}}}},
+       {{"particles_to_grid", {"mpm.gather_velocities"}}, {"grid_to_particles", back}, {"sort", {"mpm.sort"}}}},
   };
 }
 

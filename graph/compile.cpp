@@ -13,6 +13,7 @@
 #include "graph/barriers.h"
 #include "graph/buffer_uses.h"
 #include "graph/glsl.h"
+#include "graph/listed_domains.h"
 #include "graph/repeats.h"
 #include "graph/stage_file.h"
 
@@ -61,6 +62,7 @@ class Compiler {
     phase(pipeline_.step, plan_.step, Phase::step);
     phase(pipeline_.frame, plan_.frame, Phase::frame);
     check_buffers(plan_, uses_, registry_, diagnostics_);
+    check_listed_domains(plan_, diagnostics_);
     if (diagnostics_.has_errors()) return std::move(plan_);
     if (options_.decide_on_device) decide_on_device(plan_);
     lay_out_memory(plan_, uses_, options_.share_memory);

@@ -32,8 +32,9 @@ struct Environment {
   std::map<std::string, std::string>
       missing;  // known domains and constants without a value here, and why ("the scene has no field")
   std::vector<Constant> constants;
-  std::set<std::string> provided;              // buffers that come from, or go, elsewhere: they need neither writer nor reader
-  std::map<std::string, std::string> choices;  // for conditions of specs: {"time_step", "auto"}
+  std::map<std::string, std::string> listed_by;  // domains whose elements a buffer lists: {"grid_blocks", "active_blocks"}
+  std::set<std::string> provided;                // buffers that come from, or go, elsewhere: they need neither writer nor reader
+  std::map<std::string, std::string> choices;    // for conditions of specs: {"time_step", "auto"}
 
   [[nodiscard]] const Constant* constant(const std::string& name) const;
 };

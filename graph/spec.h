@@ -32,8 +32,8 @@ struct Port {
   Usage usage = Usage::storage;
   std::string unit;  // SI; "1" for pure numbers
   std::string doc;
-  bool optional = false;  // may stay unbound; then HAS_<NAME> is 0 in its kernels
-  Condition when = {};    // the port exists only where this holds
+  bool optional = false;   // may stay unbound; then HAS_<NAME> is 0 in its kernels
+  Condition when = {};     // the port exists only where this holds
   bool repeatable = true;  // false: what it holds depends on the order in which invocations run, though results do not
 };
 

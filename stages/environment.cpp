@@ -216,6 +216,7 @@ graph::Environment environment(const Problem& problem) {
     add_scales(problem, result);
   }
   if (scene.field) add_field(scene, result);
+  result.listed_by = {{"grid_blocks", "active_blocks"}};
   result.choices["snow"] = scene.domain && !scene.snow.empty() ? "particles" : "none";
   result.choices["time_step"] = scene.time.dt ? "fixed" : "auto";
   return result;

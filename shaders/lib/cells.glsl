@@ -9,6 +9,9 @@ const ivec2 neighbor_offsets[8] = ivec2[8](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -
 // in that list, the way back
 const int opposite_neighbor[8] = int[8](1, 0, 3, 2, 7, 6, 5, 4);
 
+// Written out: an index into a constant list that is not known beforehand is slow.
+#define FOR_NEIGHBORS(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5) DO(6) DO(7)
+
 int cell_index(ivec2 cell) { return cell.y * cells_width + cell.x; }
 ivec2 cell_at(uint index) { return ivec2(int(index) % cells_width, int(index) / cells_width); }
 bool in_field(ivec2 cell) { return all(greaterThanEqual(cell, ivec2(0))) && cell.x < cells_width && cell.y < cells_height; }

@@ -217,7 +217,7 @@ TEST_CASE("a run that is not the same any more does not go on, and what has chan
   refused({"--set", "scene.gravity=[0, -1.62, 0]"}, "scene.gravity.1 is -1.62, was -9.81");
   refused({"--set", "scene.snow.0.per_cell=5"}, "scene.snow.0.per_cell is 5, was 4");
   refused({"--set", "mpm.grid_to_particles.flip=0.5"}, "mpm.grid_to_particles.flip is 0.5, was 0.95");
-  refused({"--set", "kernel=quadratic"}, "mpm.gather_to_grid.kernel is \"quadratic\", was \"cubic\"");
+  refused({"--set", "kernel=quadratic"}, "mpm.gather_velocities.kernel is \"quadratic\", was \"cubic\"");
   refused({"--disable", "mpm.particle_collide"}, "the stage mpm.particle_collide is no longer there");
   fs::create_directories(folder / "data/shaders/mpm");
   std::ofstream(folder / "data/shaders/mpm/advect.comp") << read_file(FIRN_SOURCE_DIR "/shaders/mpm/advect.comp") << "// other\n";

@@ -39,8 +39,8 @@ Arrays run_stage(const StageRun& run);
 Arrays run_pipeline(const std::string& yaml, const graph::Environment& environment, const graph::Registry& registry,
                     const Arrays& in, double dt, int steps, bool barriers_all = false);
 
-// An environment for particles on a grid, without a scene: domains particles, nodes, grid_rows, grid_blocks, block_table, materials, bodies,
-// key_frames and the constants grid_min, grid_cell, grid_nodes, gravity, mass_scale, momentum_scale, crowd.
+// An environment for particles on a grid, without a scene: domains particles, nodes, grid_rows, grid_blocks, block_table,
+// materials, bodies, key_frames and the constants grid_min, grid_cell, grid_nodes, gravity, mass_scale, momentum_scale, crowd.
 struct GridSetup {
   std::uint64_t particles = 0, materials = 1, bodies = 0, key_frames = 0;
   std::array<double, 3> grid_min{0, 0, 0};

@@ -186,6 +186,23 @@ TEST_CASE("deform_stress is deform and stress in one") {
   CHECK(relative_error(out.floats.at("stress"), flat(ref::stress(expected, snow.materials))) <= 1e-4);
 }
 
+TEST_CASE("nodes that were stored for an earlier list of blocks cannot be read with a later one") {
+  const RandomSnow snow = lumps(1, 10);
+  const std::string sort = "  - mpm.sort: {nodes: active}\n", gather = "  - mpm.gather_velocities\n",
+                    back = "  - mpm.grid_to_particles: {nodes: active}\n";
+  CHECK_NOTHROW(run(snow, sort + gather + back, gathered(snow)));
+  // Within a step, and across its end.
+  for (const std::string& order : {sort + gather + sort + back, sort + back + gather}) {
+    CAPTURE(order);
+    try {
+      run(snow, order, gathered(snow));
+      FAIL("was taken");
+    } catch (const firn::config::InputError& error) {
+      CHECK(std::string(error.what()).find("'grid_velocity', which was written for an earlier 'active_blocks'") != std::string::npos);
+    }
+  }
+}
+
 TEST_CASE("more blocks than there is room for end the run") {
   const RandomSnow snow = lumps(1, 1500);
   const Arrays in = snow.arrays({"position"});

@@ -5,6 +5,7 @@
 #include <random>
 #include <set>
 
+#include "app/arrays.h"
 #include "graph/compile.h"
 #include "tests/catch.h"
 #include "tests/stages/simulation.h"
@@ -39,12 +40,10 @@ State state_after(const graph::Plan& plan, const graph::Registry& registry, doub
     execution.step();
   }
   State state;
-  // Lists of cells are made as these come, in another order in every run.
-  const std::set<std::string> unordered{"covered", "leaving"};
   for (const graph::PlannedBuffer& buffer : plan.buffers)
-    if (!unordered.contains(buffer.name) && buffer.lifetime == graph::Lifetime::state && !buffer.texture &&
+    if (repeats(plan, buffer) && buffer.lifetime == graph::Lifetime::state && !buffer.texture &&
         !buffer.name.starts_with("repeat#"))
-      state[buffer.name] = execution.read(buffer.name);
+      state[buffer.name] = app::read_array(execution, buffer.name).packed;
   return state;
 }
 

@@ -38,14 +38,6 @@ struct Run {
   bool by_device = false;
 };
 
-// Lists of cells and blocks are made as these come, in another order in every run.
-bool repeats(const graph::Plan& plan, const graph::PlannedBuffer& buffer) {
-  for (const graph::PlannedStage& stage : plan.stages)
-    for (std::size_t p = 0; p < stage.buffers.size(); ++p)
-      if (stage.buffers[p] == plan.buffer(buffer.name) && !stage.spec.ports[p].repeatable) return false;
-  return true;
-}
-
 Run run(const std::string& pipeline, const std::string& scene_text, int steps, const graph::PlanOptions& options) {
   const SceneFile scene(scene_text);
   app::Inputs inputs;

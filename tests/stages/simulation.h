@@ -25,6 +25,14 @@ struct SceneFile {
   std::string path;
 };
 
+// Lists of cells and blocks are made as these come, in another order in every run.
+inline bool repeats(const graph::Plan& plan, const graph::PlannedBuffer& buffer) {
+  for (const graph::PlannedStage& stage : plan.stages)
+    for (std::size_t p = 0; p < stage.buffers.size(); ++p)
+      if (stage.buffers[p] == plan.buffer(buffer.name) && !stage.spec.ports[p].repeatable) return false;
+  return true;
+}
+
 struct Simulation {
   Simulation(const std::string& pipeline, const std::string& scene_text, std::vector<std::string> set = {},
              bool barriers_all = false)
