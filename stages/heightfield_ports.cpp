@@ -53,6 +53,9 @@ Port port(const char* name, Access access, Usage usage) {
       {"covered", uint1, "cells", "1", "list of cells under bodies"},
       {"covered_count", uint1, "1", "1", "length of that list"},
       {"leaving", uint1, "cells", "1", "list of cells that hand snow on"},
+      {"woken", uint1, "cells", "1", "last turn in which something beside the cell became cheaper"},
+      {"waiting", uint1, "cells*2", "1", "two lists of such cells, of this turn and the next"},
+      {"higher_left", uint1, "cells", "1", "neighbours that have still to hand the cell something"},
       {"leaving_count", uint1, "1", "1", "length of that list"},
       {"lower_count", uint1, "cells", "1", "neighbours of strictly lower distance"},
       {"travelling", vec2, "cells", "kg/m2", "snow that passes the cell on its way out, per area; and its depth in m"},
@@ -67,7 +70,7 @@ Port port(const char* name, Access access, Usage usage) {
       {"active_tile_groups", uint1, "3", "1", "size of a dispatch with one group per active tile"},
   };
   // Made as invocations come.
-  constexpr std::string_view lists[] = {"covered", "leaving", "flatten_tiles", "active_tiles"};
+  constexpr std::string_view lists[] = {"covered", "leaving", "waiting", "woken", "flatten_tiles", "active_tiles"};
   for (const Facts& facts : table)
     if (std::string_view(name) == facts.name)
       return {.name = facts.name,

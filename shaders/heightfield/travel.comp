@@ -1,33 +1,34 @@
-// From the highest level down, every cell hands on what it has, its own and what came. Here all cells at once, again and again until
-// nothing changes: after n turns everything that is at most n cells from the highest levels is final. A single group, so that every turn
-// sees the one before.
+// From the highest level down, every cell hands on what it has, its own and what came: as soon as all that hand it something have done so.
+// Each cell comes once, in the order of the list, which grows while it is worked on. A single group, so that every turn sees the one before.
 #include "heightfield/passed.glsl"
 
-shared uint altered;
+shared uint end_of_list;
+
+void tell(ivec2 to, float own) {
+  if (!in_field(to)) return;
+  int j = cell_index(to);
+  if (!(distance[j] > 0.0) || !strictly_lower(distance[j], own)) return;
+  if (atomicAdd(higher_left[j], 0xffffffffu) == 1u) leaving[atomicAdd(end_of_list, 1u)] = uint(j);
+}
 
 void main() {
-  uint lane = gl_LocalInvocationID.x, count = min(leaving_count[0], cells_count);
-  for (uint turn = 0u; turn <= count; ++turn) {
-    barrier();
-    if (lane == 0u) altered = 0u;
-    barrier();
-    for (uint entry = lane; entry < count; entry += gl_WorkGroupSize.x) {
+  uint lane = gl_LocalInvocationID.x, begin = 0u, end = min(leaving_count[0], cells_count);
+  if (lane == 0u) end_of_list = end;
+  barrier();
+  while (begin < end) {
+    for (uint entry = begin + lane; entry < end; entry += gl_WorkGroupSize.x) {
       int i = int(leaving[entry]);
-#if HAS_DISPLACED_HEIGHT
-      vec2 own = vec2(displaced[i], displaced_height[i]);
-#else
-      vec2 own = vec2(displaced[i], 0.0);
-#endif
-      vec2 before = travelling[i], after = own + handed_to(cell_at(uint(i)));
-      if (any(lessThan(before, after)) || any(greaterThan(before, after))) {
-        travelling[i] = after;
-        altered = 1u;
-      }
+      ivec2 cell = cell_at(uint(i));
+      float own = distance[i];
+      travelling[i] += handed_to(cell);
+#define TELL(n) tell(cell + neighbor_offsets[n], own);
+      FOR_RECEIVERS(TELL)
     }
     memoryBarrierBuffer();
     barrier();
-    if (altered == 0u) break;
+    begin = end;
+    end = min(end_of_list, cells_count);
+    barrier();
   }
-  barrier();
   if (lane == 0u) leaving_count[0] = 0u;
 }

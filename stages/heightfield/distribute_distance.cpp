@@ -18,7 +18,7 @@ graph::StageSpec distribute_distance() {
       .equation = "[H 3.8]",
       .ports = mpm::joined({ports({"distance", "displaced"}, read),
                             {optional("displaced_height", read), port("arrived", write), optional("arrived_height", write)},
-                            ports({"lower_count", "travelling", "leaving", "leaving_count"}, read_write),
+                            ports({"lower_count", "higher_left", "travelling", "leaving", "leaving_count"}, read_write),
                             cell_choice_ports()}),
       .parameters = {{.name = "neighbours",
                       .kind = graph::ParameterKind::choice,
@@ -27,14 +27,19 @@ graph::StageSpec distribute_distance() {
                       .doc = "to which of its neighbours a cell may hand snow on: 4 share an edge with it, 8 also a corner"},
                      cells_parameter()},
       .work = sequence(
-          {over_cells("heightfield/travel_begin.comp",
-                      with({{"lower_count", write}, {"travelling", write}, {"leaving", write}, {"leaving_count", accumulate}})),
-           {graph::Dispatch{
-               .kernel = "heightfield/travel.comp",
-               .over = "1024",
-               .group = 1024,
-               .uses =
-                   with({{"lower_count", read}, {"travelling", read_write}, {"leaving", read}, {"leaving_count", read_write}})}},
+          {over_cells("heightfield/travel_begin.comp", with({{"lower_count", write},
+                                                             {"higher_left", write},
+                                                             {"travelling", write},
+                                                             {"leaving", write},
+                                                             {"leaving_count", accumulate}})),
+           {graph::Dispatch{.kernel = "heightfield/travel.comp",
+                            .over = "64",
+                            .group = 64,
+                            .uses = with({{"lower_count", read},
+                                          {"travelling", read_write},
+                                          {"higher_left", read_write},
+                                          {"leaving", read_write},
+                                          {"leaving_count", read_write}})}},
            over_cells(
                "heightfield/distribute_distance.comp",
                {{"distance", read}, {"lower_count", read}, {"travelling", read}, {"arrived", write}, {"arrived_height", write}})})};
