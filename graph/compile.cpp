@@ -272,6 +272,7 @@ class Compiler {
       return -1;
     }
     const int index = existing >= 0 ? existing : make_buffer(wanted, port, *count, place);
+    if (index < 0) return -1;
     PlannedBuffer& buffer = plan_.buffers[static_cast<std::size_t>(index)];
     if (existing >= 0) match(port, *count, buffer, place, stage);
     const bool texture = is_texel(port.type) || port.usage == Usage::framebuffer || port.usage == Usage::image;
@@ -283,6 +284,12 @@ class Compiler {
   }
 
   int make_buffer(const std::string& name, const Port& port, std::uint64_t count, const Place& place) {
+    constexpr std::size_t most_buffers = 2000;
+    if (plan_.buffers.size() == most_buffers) {
+      if (!too_many_buffers_) diagnostics_.error(place, fmt::format("more than {} buffers in a pipeline", most_buffers));
+      too_many_buffers_ = true;
+      return -1;
+    }
     PlannedBuffer buffer;
     buffer.name = name;
     buffer.type = port.type;
@@ -342,6 +349,7 @@ class Compiler {
   Plan plan_;
   BufferUses uses_;
   std::set<std::string> unknown_domains_;
+  bool too_many_buffers_ = false;
   std::set<std::string> written_, read_;  // names of buffers
 };
 
