@@ -41,7 +41,7 @@ TEST_CASE("repeats in repeats are planned five deep and refused deeper") {
     for (int i = 0; i < depth; ++i) stages = "{repeat: 2, stages: [" + stages + "]}";
     return load_messages("firn: 1\nstep: [" + stages + "]\n");
   };
-  CHECK(nested(5) == Lines{});
+  CHECK(nested(5).empty());
   const Lines refused = nested(6);
   REQUIRE(refused.size() == 1);
   CHECK(refused[0].find("repeats stand in one another more than 5 deep") != std::string::npos);
@@ -52,7 +52,7 @@ TEST_CASE("more than ten thousand stages in a phase are refused, once") {
   for (int i = 1; i < 100; ++i) text += ", demo.fill";
   text += "]\n";
   for (int i = 1; i < 99; ++i) text += "  - {group: more, stages: *many}\n";
-  CHECK(load_messages(text) == Lines{});
+  CHECK(load_messages(text).empty());
   text += "  - {group: last, stages: *many}\n";
   const Lines refused = load_messages(text);
   REQUIRE(refused.size() == 1);
@@ -72,7 +72,7 @@ TEST_CASE("ten thousand uses of one stage get their labels in a moment") {
 TEST_CASE("a group may be replaced by a list with a group of its own name") {
   const Loaded result =
       loaded("firn: 1\nstep: [{group: a, stages: [demo.fill]}]\nreplace: {a: [{group: a, stages: [demo.look]}]}\n");
-  CHECK(result.messages == Lines{});
+  CHECK(result.messages.empty());
   CHECK(text_of(result.pipeline.step) == "demo.look");
 }
 
