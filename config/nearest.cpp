@@ -4,7 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
 namespace firn::config {
 namespace {
@@ -33,6 +36,16 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return row[b.size()];
 }
 
+// Which characters a text has. One edit adds at most one of them and takes away at most one.
+std::uint64_t letters(std::string_view text) {
+  std::uint64_t set = 0;
+  for (const char c : text) set |= std::uint64_t{1} << (static_cast<unsigned char>(lower(c)) % 64);
+  return set;
+}
+
+// So that thousands of mistakes among thousands of names are told in a moment.
+constexpr std::size_t most_compared = 256;
+
 // A third of the letters may differ, one in short words, but never all of them.
 std::size_t largest_distance(std::size_t length) { return length < 2 ? 0 : std::max<std::size_t>(1, length / 3); }
 
@@ -41,11 +54,12 @@ std::size_t largest_distance(std::size_t length) { return length < 2 ? 0 : std::
 std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& choices) {
   std::optional<std::string> best;
   std::size_t best_distance = 0;
-  for (const std::string& choice : choices) {
+  const std::uint64_t of_word = letters(word);
+  for (const std::string& choice : std::span(choices).first(std::min(choices.size(), most_compared))) {
     const std::size_t longer = std::max(word.size(), choice.size());
     const std::size_t shorter = std::min(word.size(), choice.size());
     const std::size_t limit = largest_distance(longer);
-    if (longer - shorter > limit) continue;
+    if (longer - shorter > limit || std::popcount(of_word ^ letters(choice)) > static_cast<int>(2 * limit)) continue;
     const std::size_t found = distance(word, choice);
     if (found > limit || (best && found >= best_distance)) continue;
     best = choice;

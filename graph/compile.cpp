@@ -3,18 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
-#include <limits>
 #include <map>
 #include <set>
 
 #include "config/nearest.h"
-#include "config/reader.h"
 #include "graph/barriers.h"
 #include "graph/buffer_uses.h"
 #include "graph/glsl.h"
 #include "graph/listed_domains.h"
 #include "graph/repeats.h"
+#include "graph/single_use.h"
 #include "graph/stage_file.h"
 
 namespace firn::graph {
@@ -22,42 +20,21 @@ namespace {
 
 using config::Diagnostics;
 
-Value read_value(const config::Node& node, const ParameterSpec& parameter, Diagnostics& diagnostics) {
-  config::Range range{.min = parameter.min, .max = parameter.max};
-  if (parameter.kind == ParameterKind::integer) {  // GLSL's int
-    range.min = std::max(range.min, static_cast<double>(std::numeric_limits<std::int32_t>::min()));
-    range.max = std::min(range.max, static_cast<double>(std::numeric_limits<std::int32_t>::max()));
-  }
-  const auto or_initial = [&](const auto& read) { return read ? Value(*read) : parameter.initial; };
-  switch (parameter.kind) {
-    case ParameterKind::number:
-      return or_initial(config::read_number(node, parameter.name, range, diagnostics));
-    case ParameterKind::integer:
-      return or_initial(config::read_integer(node, parameter.name, range, diagnostics));
-    case ParameterKind::boolean:
-      return or_initial(config::read_boolean(node, parameter.name, diagnostics));
-    case ParameterKind::choice:
-      return or_initial(config::read_choice(node, parameter.name, parameter.choices, diagnostics));
-    case ParameterKind::vector3:
-      return or_initial(config::read_vector3(node, parameter.name, range, diagnostics));
-    case ParameterKind::path:
-      return or_initial(config::read_text(node, parameter.name, diagnostics));
-  }
-  return parameter.initial;
-}
-
 class Compiler {
  public:
   Compiler(const PipelineSpec& pipeline, const Registry& registry, const Environment& environment, Diagnostics& diagnostics,
            const PlanOptions& options)
-      : pipeline_(pipeline), registry_(registry), diagnostics_(diagnostics), options_(options) {
+      : pipeline_(pipeline),
+        registry_(registry),
+        diagnostics_(diagnostics),
+        options_(options),
+        traffic_(survey(pipeline, registry, environment)) {
     plan_.pipeline = pipeline.name;
     plan_.file = pipeline.file;
     plan_.environment = environment;
   }
 
   Plan run() {
-    for (const std::vector<Item>* items : {&pipeline_.setup, &pipeline_.step, &pipeline_.frame}) survey(*items);
     phase(pipeline_.setup, plan_.setup, Phase::setup);
     phase(pipeline_.step, plan_.step, Phase::step);
     phase(pipeline_.frame, plan_.frame, Phase::frame);
@@ -71,45 +48,8 @@ class Compiler {
   }
 
  private:
-  // Which buffers the pipeline writes and reads at all, wherever: optional ports are bound by that. Whoever only goes on from what
-  // an optional port finds is no reader; the end of a repeat is one.
-  void survey(const std::vector<Item>& items) {
-    Diagnostics told_later;
-    for (const Item& item : items) {
-      if (const auto* repeat = std::get_if<RepeatUse>(&item.what)) {
-        survey(repeat->stages);
-        for (const Until& until : repeat->until) read_.insert(until.buffer);
-      }
-      const auto* use = std::get_if<StageUse>(&item.what);
-      const StageSpec* spec = use != nullptr && use->enabled ? spec_of(*use) : nullptr;
-      if (spec == nullptr) continue;
-      PlannedStage planned;
-      planned.spec = *spec;
-      planned.parameters = parameters(*use, *spec, told_later);
-      keep_what_holds(planned);
-      for (const Port& port : planned.spec.ports) {
-        const std::string buffer = bound_name(port, *use).first;
-        if (writes(port.access)) written_.insert(buffer);
-        if (reads(port.access) && (!port.optional || port.access == Access::read)) read_.insert(buffer);
-      }
-    }
-  }
-
-  [[nodiscard]] const StageSpec* spec_of(const StageUse& use) const {
-    if (const auto file = pipeline_.stage_files.find(use.stage); file != pipeline_.stage_files.end()) return &file->second;
-    const StageType* type = registry_.find(use.stage);
-    return type == nullptr ? nullptr : &type->spec;
-  }
-
-  // The buffer that a port is to have, and where the pipeline says so (nowhere: its own name).
-  static std::pair<std::string, std::optional<Place>> bound_name(const Port& port, const StageUse& use) {
-    for (const Binding& binding : use.bindings)
-      if (binding.port == port.name) return {binding.buffer, binding.place};
-    return {port.name, {}};
-  }
-
   [[nodiscard]] bool is_wanted(const Port& port, const std::string& buffer) const {
-    return (written_.contains(buffer) && read_.contains(buffer)) ||
+    return (traffic_.written.contains(buffer) && traffic_.read.contains(buffer)) ||
            (writes(port.access) && plan_.environment.provided.contains(buffer));
   }
 
@@ -155,7 +95,7 @@ class Compiler {
   }
 
   void stage(const StageUse& use, std::vector<Op>& ops, Phase in) {
-    const StageSpec* spec = spec_of(use);
+    const StageSpec* spec = spec_of(use, pipeline_, registry_);
     if (is_stage_file(use.stage)) return;  // its head has told what is wrong
     if (pipeline_.stage_files.contains(use.stage) && registry_.find(use.stage) != nullptr)
       diagnostics_.error(use.place, fmt::format("the file of this stage calls it '{}', as one of Firn's own is called", use.stage));
@@ -169,8 +109,8 @@ class Compiler {
     planned.every = use.every;
     planned.place = use.place;
     planned.spec = *spec;
-    planned.parameters = parameters(use, *spec, diagnostics_);
-    keep_what_holds(planned);
+    planned.parameters = parameter_values(use, *spec, diagnostics_);
+    keep_what_holds(planned, plan_.environment);
     const bool bindings_known = check_bindings(use, *spec, planned.spec);
     if (!use.enabled || !bindings_known) return;
     check_constants(use, planned.spec);
@@ -178,37 +118,6 @@ class Compiler {
     check_work_domains(use, planned.spec);
     plan_.stages.push_back(planned);
     add_ops(static_cast<int>(plan_.stages.size()) - 1, ops, in);
-  }
-
-  ParameterValues parameters(const StageUse& use, const StageSpec& spec, Diagnostics& diagnostics) {
-    ParameterValues values;
-    for (const ParameterSpec& parameter : spec.parameters) values[parameter.name] = parameter.initial;
-    for (const config::Entry& given : use.parameters) {
-      const auto parameter = std::ranges::find(spec.parameters, given.key, &ParameterSpec::name);
-      if (parameter == spec.parameters.end()) {
-        std::vector<std::string> known{"bind", "every", "enable", "as", "when"};
-        for (const ParameterSpec& p : spec.parameters) known.insert(known.end() - 5, p.name);
-        diagnostics.error(given.place,
-                          fmt::format("{} has no parameter '{}'{}", spec.name, given.key, config::suggestion(given.key, known)));
-        continue;
-      }
-      values[given.key] = read_value(given.value, *parameter, diagnostics);
-    }
-    return values;
-  }
-
-  [[nodiscard]] bool holds(const Condition& condition, const PlannedStage& stage) const {
-    if (condition.name.empty()) return true;
-    if (const auto value = stage.parameters.find(condition.name); value != stage.parameters.end())
-      return to_string(value->second) == condition.value;
-    const auto choice = plan_.environment.choices.find(condition.name);
-    return choice != plan_.environment.choices.end() && choice->second == condition.value;
-  }
-
-  void keep_what_holds(PlannedStage& stage) const {
-    std::erase_if(stage.spec.ports, [&](const Port& port) { return !holds(port.when, stage); });
-    std::erase_if(stage.spec.work,
-                  [&](const Work& work) { return !holds(std::visit([](const auto& w) { return w.when; }, work), stage); });
   }
 
   bool check_bindings(const StageUse& use, const StageSpec& whole, const StageSpec& active) {
@@ -278,6 +187,7 @@ class Compiler {
       diagnostics_.error(place, fmt::format("{}: buffer '{}' would have {} elements of '{}', and devices count to 2^31",
                                             stage.spec.name, wanted, *count, port.domain));
     const int index = existing >= 0 ? existing : make_buffer(wanted, port, *count, place);
+    if (index < 0) return -1;
     PlannedBuffer& buffer = plan_.buffers[static_cast<std::size_t>(index)];
     if (existing >= 0) match(port, *count, buffer, place, stage);
     const bool texture = is_texel(port.type) || port.usage == Usage::framebuffer || port.usage == Usage::image;
@@ -289,6 +199,12 @@ class Compiler {
   }
 
   int make_buffer(const std::string& name, const Port& port, std::uint64_t count, const Place& place) {
+    constexpr std::size_t most_buffers = 2000;
+    if (plan_.buffers.size() == most_buffers) {
+      if (!too_many_buffers_) diagnostics_.error(place, fmt::format("more than {} buffers in a pipeline", most_buffers));
+      too_many_buffers_ = true;
+      return -1;
+    }
     PlannedBuffer buffer;
     buffer.name = name;
     buffer.type = port.type;
@@ -348,7 +264,8 @@ class Compiler {
   Plan plan_;
   BufferUses uses_;
   std::set<std::string> unknown_domains_;
-  std::set<std::string> written_, read_;  // names of buffers
+  bool too_many_buffers_ = false;
+  const Traffic traffic_;
 };
 
 }  // namespace

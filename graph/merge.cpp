@@ -24,13 +24,24 @@ Entry& entry(Node& map, const std::string& key, const Place& place) {
   return map.entries.back();
 }
 
-// Calls `visit` for every list of stages: the phases and, below them, those of groups and repeats.
-void each_list(Node& list, const std::function<void(Node& item, const std::string& group)>& visit) {
+// Calls `visit` for every group in a list of stages, and for those in groups and repeats below it where it says so.
+void each_group(Node& list, const std::function<bool(Node& item, const std::string& group)>& visit) {
   for (Node& item : list.items) {
     const Node* group = item.find("group");
-    if (group != nullptr) visit(item, group->scalar);
-    if (Node* inner = item.find("stages")) each_list(*inner, visit);
+    const bool goes_on = group == nullptr || visit(item, group->scalar);
+    if (Node* inner = item.find("stages"); inner != nullptr && goes_on) each_group(*inner, visit);
   }
+}
+
+// A few lines can replace many groups by long lists, which hold groups to be replaced.
+constexpr std::size_t most_nodes = 200'000;
+constexpr std::size_t most_replacements = 200;
+
+std::size_t count_nodes(const Node& node) {
+  std::size_t count = 1;
+  for (const Node& item : node.items) count += count_nodes(item);
+  for (const Entry& e : node.entries) count += 1 + count_nodes(e.value);
+  return count;
 }
 
 std::string canonical_name(const std::filesystem::path& file) {
@@ -75,7 +86,10 @@ Node load_in_chain(const std::filesystem::path& file, std::vector<std::string> c
       diagnostics.error(replace->place,
                         fmt::format("replace must be a map of groups to lists of stages, not {}", describe(*replace)));
     const std::vector<Entry> groups = replace->entries;
-    for (const Entry& group : groups) replace_group(merged, group.key, group.value, group.place, diagnostics);
+    if (groups.size() > most_replacements)
+      diagnostics.error(replace->place, fmt::format("more than {} groups are replaced", most_replacements));
+    else
+      for (const Entry& group : groups) replace_group(merged, group.key, group.value, group.place, diagnostics);
     std::erase_if(merged.entries, [](const Entry& e) { return e.key == "replace"; });
   }
   return merged;
@@ -91,13 +105,19 @@ std::string beside(const Place& place, const std::string& path) {
 void replace_group(Node& root, const std::string& group, const Node& stages, const Place& place, Diagnostics& diagnostics) {
   std::vector<std::string> known;
   bool found = false;
+  const std::size_t more = count_nodes(stages);
+  std::size_t nodes = count_nodes(root);
   for (const char* phase : phase_names)
     if (Node* list = root.find(phase))
-      each_list(*list, [&](Node& item, const std::string& name) {
+      each_group(*list, [&](Node& item, const std::string& name) {
         known.push_back(name);
-        if (name != group) return;
+        if (name != group) return true;
         found = true;
-        entry(item, "stages", place).value = stages;
+        if (nodes <= most_nodes && nodes + more > most_nodes)
+          diagnostics.error(place, fmt::format("replacing '{}' makes more than {} values and keys", group, most_nodes));
+        nodes += more;
+        if (nodes <= most_nodes) entry(item, "stages", place).value = stages;
+        return false;  // a list may hold a group of the name that it replaces
       });
   if (!found)
     diagnostics.error(place, known.empty() ? fmt::format("no group '{}' to replace: the pipeline has no groups", group)

@@ -70,11 +70,13 @@ void read_stage_files(PipelineSpec& pipeline, Diagnostics& diagnostics) {
 
 void make_labels_unique(PipelineSpec& pipeline, Diagnostics& diagnostics) {
   std::set<std::string> taken;
+  std::map<std::string, int> next;  // number of a label
   each_use(pipeline, [&](StageUse& use) {
     const std::string wanted = use.label;
     if (wanted != use.stage && taken.contains(wanted))
       diagnostics.error(use.place, fmt::format("two stages are called '{}'", wanted));
-    for (int number = 2; !taken.insert(use.label).second; ++number) use.label = fmt::format("{}#{}", wanted, number);
+    for (int& number = next.try_emplace(wanted, 2).first->second; !taken.insert(use.label).second; ++number)
+      use.label = fmt::format("{}#{}", wanted, number);
   });
 }
 
@@ -107,6 +109,11 @@ void set_parameters(Node& root, const Edits& edits, PipelineSpec& pipeline, Diag
       parameters = *given;
     else if (given->kind != Node::Kind::null)
       diagnostics.error(given->place, fmt::format("parameters must be a map of names to values, not {}", describe(*given)));
+  }
+  constexpr std::size_t most_parameters = 1000;
+  if (parameters.entries.size() > most_parameters) {
+    diagnostics.error(parameters.entries[most_parameters].place, fmt::format("more than {} parameters", most_parameters));
+    parameters.entries.resize(most_parameters);
   }
   for (const config::Override& change : edits.set) {
     if (change.path.size() != 1 || change.path[0] == "scene") continue;

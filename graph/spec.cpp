@@ -95,6 +95,10 @@ std::vector<std::string> problems(const StageSpec& spec) {
   if (spec.name.empty()) found.emplace_back("has no name");
   if (spec.doc.empty()) found.emplace_back("has no doc");
   if (spec.work.empty()) found.emplace_back("has no work");
+  // Far more than any device binds at once.
+  constexpr std::size_t most_ports = 100, most_parameters = 100;
+  if (spec.ports.size() > most_ports) return {fmt::format("has more than {} ports", most_ports)};
+  if (spec.parameters.size() > most_parameters) return {fmt::format("has more than {} parameters", most_parameters)};
 
   std::set<std::string> ports;
   std::set<std::string> keys;

@@ -172,6 +172,12 @@ class HeadReader {
 bool is_stage_file(const std::string& name) { return name.ends_with(".comp"); }
 
 std::optional<StageSpec> read_stage_file(const std::filesystem::path& file, Diagnostics& diagnostics) {
+  constexpr std::uintmax_t largest = 1 << 20;
+  std::error_code error;
+  if (const std::uintmax_t size = std::filesystem::file_size(file, error); !error && size > largest) {
+    diagnostics.error({file.string(), 0, 0}, "a shader of more than 1 MiB is none");
+    return std::nullopt;
+  }
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   const std::optional<std::string> head = head_of(text);

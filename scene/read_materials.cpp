@@ -52,6 +52,11 @@ std::vector<Material> read_materials(const Node& node, Diagnostics& diagnostics)
     diagnostics.error(node.place, fmt::format("materials must be a map of name: {{...}}, not {}", config::describe(node)));
     return materials;
   }
+  constexpr std::size_t most_materials = 1000;
+  if (node.entries.size() > most_materials) {
+    diagnostics.error(node.entries[most_materials].place, fmt::format("more than {} materials", most_materials));
+    return materials;
+  }
   for (const config::Entry& entry : node.entries) materials.push_back(read_material(entry.key, entry.value, diagnostics));
   return materials;
 }

@@ -65,3 +65,9 @@ TEST_CASE("a suggestion lists at most 12 names") {
   CHECK(suggestion("?", names).find("llllll and 2 more") != std::string::npos);
   CHECK(suggestion("?", names).find("mmmmmm") == std::string::npos);
 }
+
+TEST_CASE("a name among thousands costs little, and the first of them are still found") {
+  std::vector<std::string> many(50'000, "something_else_altogether");
+  many[200] = "density";
+  for (int i = 0; i < 2000; ++i) CHECK(nearest("densty", many) == "density");
+}

@@ -98,6 +98,13 @@ TEST_CASE("preset names are unique, and an unknown one is nothing") {
   CHECK(scene::find_preset("slush") == nullptr);
 }
 
+TEST_CASE("more than a thousand materials are refused, once") {
+  std::string text = "firn: 1\nfield: {size: [1, 1], cells: [8, 8], depth: 1, material: powder}\nmaterials:\n";
+  for (int i = 0; i < 1000; ++i) text += "  m" + std::to_string(i) + ": {}\n";
+  CHECK(read_text(text).text().empty());
+  CHECK(read_text(text + "  last: {}\n").text() == "scene.yaml:1004:3: error: more than 1000 materials\n");
+}
+
 TEST_CASE("Sigrist's lines at the values that the theses print") {
   CHECK(scene::sigrist_young(400) == Approx(84e6).epsilon(0.01));  // [M 15]: 84 MPa
   CHECK(scene::sigrist_poisson(400) == Approx(0.25).epsilon(1e-12));

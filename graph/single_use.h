@@ -1,0 +1,34 @@
+#pragma once
+
+// A use of a stage by itself, before anything is bound; and what all uses together write and read.
+
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "graph/plan.h"
+#include "graph/registry.h"
+
+namespace firn::graph {
+
+// Of a stage that is a file, or of one of the registry's. nullptr: there is none.
+const StageSpec* spec_of(const StageUse& use, const PipelineSpec& pipeline, const Registry& registry);
+
+// Every parameter of the spec: as given, else its default. What cannot be read is told.
+ParameterValues parameter_values(const StageUse& use, const StageSpec& spec, config::Diagnostics& diagnostics);
+
+// Takes out the ports and work whose conditions do not hold with the stage's parameters.
+void keep_what_holds(PlannedStage& stage, const Environment& environment);
+
+// The buffer that a port is to have, and where the pipeline says so (nowhere: its own name).
+std::pair<std::string, std::optional<Place>> bound_name(const Port& port, const StageUse& use);
+
+// Which buffers a pipeline writes and reads at all, wherever: optional ports are bound by that. Whoever only goes on from what an
+// optional port finds is no reader; the end of a repeat is one.
+struct Traffic {
+  std::set<std::string> written, read;
+};
+Traffic survey(const PipelineSpec& pipeline, const Registry& registry, const Environment& environment);
+
+}  // namespace firn::graph
