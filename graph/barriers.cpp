@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <span>
 #include <utility>
+
+#include "graph/barrier_state.h"
 
 namespace firn::graph {
 namespace {
 
-constexpr std::array<std::pair<Bit, const char*>, 11> bit_table{{
+constexpr std::array<std::pair<Bit, const char*>, bit_count> bit_table{{
     {bit_vertex_attrib_array, "vertex_attrib_array"},
     {bit_element_array, "element_array"},
     {bit_uniform, "uniform"},
@@ -23,60 +26,14 @@ constexpr std::array<std::pair<Bit, const char*>, 11> bit_table{{
     {bit_framebuffer, "framebuffer"},
     {bit_shader_storage, "shader_storage"},
 }};
-constexpr Bits every_bit = (1u << 11) - 1;
+constexpr Bits every_bit = (1u << bit_count) - 1;
 constexpr Bits write_bits = bit_shader_storage | bit_shader_image_access;  // the bits that later shader writes wait at
-
-// What is open for one storage at one point of the execution; buffers that share it count as one. Accumulations are kept apart:
-// among themselves they need no order.
-struct BufferState {
-  Bits stale = 0;              // consumers that may not see the last shader write yet
-  Bits stale_accumulated = 0;  // the same after accumulation
-  Bits unordered = 0;          // write bits at which earlier accesses have not been waited for yet
-  Bits unordered_accumulated = 0;
-  struct Last {
-    int stage = -1;
-    Access access = Access::read;
-    int buffer = -1;
-  };
-  Last written, accessed;  // for the reasons only
-
-  void clear(Bits bits) {
-    stale &= ~bits;
-    stale_accumulated &= ~bits;
-    unordered &= ~bits;
-    unordered_accumulated &= ~bits;
-  }
-  [[nodiscard]] std::array<Bits, 4> hazards() const { return {stale, stale_accumulated, unordered, unordered_accumulated}; }
-};
-
-struct State {
-  std::vector<BufferState> buffers;
-
-  void barrier(Bits bits) {
-    for (BufferState& buffer : buffers) buffer.clear(bits);
-  }
-  // Takes in what is open after another way to the same point. True where that adds anything.
-  bool join(const State& other) {
-    bool grown = false;
-    for (std::size_t b = 0; b < buffers.size(); ++b) {
-      BufferState& mine = buffers[b];
-      const BufferState& theirs = other.buffers[b];
-      const auto before = mine.hazards();
-      mine.stale |= theirs.stale;
-      mine.stale_accumulated |= theirs.stale_accumulated;
-      mine.unordered |= theirs.unordered;
-      mine.unordered_accumulated |= theirs.unordered_accumulated;
-      if (mine.written.stage < 0) mine.written = theirs.written;
-      if (mine.accessed.stage < 0) mine.accessed = theirs.accessed;
-      grown |= before != mine.hazards();
-    }
-    return grown;
-  }
-};
 
 // Replaying ops distributes over joins of states: what is open at the end is what the ops leave open themselves, and what was open
 // before and not closed by their barriers. So pairs of phases are enough to look at; longer ways leave no more open than these.
 class Placement {
+  using State = MemoryState;
+
  public:
   explicit Placement(Plan& plan) : plan_(plan) {}
 
@@ -110,7 +67,7 @@ class Placement {
  private:
   using Body = std::function<std::vector<Op>(State&)>;
 
-  [[nodiscard]] State clean() const { return State{std::vector<BufferState>(plan_.buffers.size())}; }
+  [[nodiscard]] State clean() const { return State(plan_.buffers.size()); }
 
   [[nodiscard]] Bits access_bit(const BufferAccess& access) const {
     return consumer_bit(access.usage, plan_.buffers[static_cast<std::size_t>(access.buffer)].texture);
@@ -129,7 +86,7 @@ class Placement {
 
   // Adds the bits that one access waits for, and why.
   void need(const BufferAccess& access, const std::string& who, const State& state, Barrier& barrier) const {
-    const BufferState& buffer = state.buffers[storage(access)];
+    const StorageState buffer = state.at(storage(access));
     const bool accumulates = access.access == Access::accumulate;
     const Bits bit = access_bit(access);
     const Bits stale = buffer.stale | (accumulates ? 0 : buffer.stale_accumulated);
@@ -137,7 +94,7 @@ class Placement {
     const bool sees_old = (stale & bit) != 0;
     const bool overtakes = is_shader_write(access) && (unordered & bit) != 0;
     if (!sees_old && !overtakes) return;
-    const BufferState::Last& earlier = sees_old ? buffer.written : buffer.accessed;
+    const StorageState::Last& earlier = sees_old ? buffer.written : buffer.accessed;
     const std::string shared =
         earlier.buffer == access.buffer ? "" : fmt::format(", in memory that was {}'s", name(earlier.buffer));
     const std::string reason = fmt::format("{}{}: {} by {}, {} by {}", name(access.buffer), shared, verb(earlier.access),
@@ -147,7 +104,7 @@ class Placement {
   }
 
   void apply(const BufferAccess& access, int stage, State& state) const {
-    BufferState& buffer = state.buffers[storage(access)];
+    StorageState& buffer = state.change(storage(access));
     const bool accumulates = access.access == Access::accumulate;
     if (is_shader_write(access)) {
       (accumulates ? buffer.stale_accumulated : buffer.stale) = every_bit;
@@ -216,11 +173,13 @@ class Placement {
     }
   }
 
-  // Runs planned ops; collects in `open` what their own barriers leave open.
-  void replay(const std::vector<Op>& ops, State& state, Barrier& open) const {
+  // Runs planned ops; collects in `open` what their own barriers leave open. Ends early once barriers have closed all of `left`.
+  void replay(std::span<const Op> ops, State& state, Barrier& open, Bits left = ~Bits{0}) const {
     for (const Op& op : ops) {
       if (const auto* barrier = std::get_if<Barrier>(&op.what)) {
         state.barrier(barrier->bits);
+        left &= ~barrier->bits;
+        if (left == 0) return;
       } else if (const auto* run = std::get_if<Run>(&op.what)) {
         for (const BufferAccess& access : run->accesses) need(access, label(run->stage), state, open);
         for (const BufferAccess& access : run->accesses) apply(access, run->stage, state);
@@ -268,31 +227,102 @@ class Placement {
     return open;
   }
 
-  void drop_needless_bits(std::vector<Op>& ops) {
-    for (Op& op : ops) {
-      if (auto* repeat = std::get_if<Repeat>(&op.what)) drop_needless_bits(repeat->body);
-      if (auto* barrier = std::get_if<Barrier>(&op.what))
-        for (const auto& [bit, bit_name] : bit_table) {
-          if ((barrier->bits & bit) == 0) continue;
-          barrier->bits &= ~bit;
-          if (missing().bits != 0) barrier->bits |= bit;
-        }
+  // Along one phase, with the states in which its ops are met in any run: what would be open if a barrier lacked some bits. Nothing
+  // is open while it has them, so only what follows it counts, up to where other barriers have closed those bits.
+  class Walk {
+   public:
+    Walk(const Placement& placement, const std::vector<Op>& phase) : placement_(placement), phase_(phase) { start(); }
+
+    void go_to(std::size_t op) {
+      Barrier ignored;
+      for (State& state : states_) placement_.replay(std::span(phase_).subspan(at_, op - at_), state, ignored);
+      at_ = op;
     }
+    // `bits` have been taken from a barrier of the op reached.
+    Barrier open_without(Bits bits) {
+      if (reach_the_end(bits)) return placement_.missing();
+      Barrier open;
+      for (State& state : states_) {
+        state.begin_trial();
+        placement_.replay(std::span(phase_).subspan(at_), state, open, bits);
+        state.end_trial();
+      }
+      return open;
+    }
+    // They stay away.
+    void drop(Bits bits) {
+      if (!reach_the_end(bits)) return;
+      const std::size_t here = std::exchange(at_, 0);
+      start();
+      go_to(here);
+    }
+
+   private:
+    void start() {
+      states_.clear();
+      const Plan& plan = placement_.plan_;
+      if (&phase_ == &plan.setup) states_.push_back(placement_.clean());
+      if (&phase_ != &plan.setup)
+        for (const std::vector<Op>* before : {&plan.setup, &plan.step, &plan.frame})
+          states_.push_back(placement_.after(*before, placement_.clean()));
+    }
+    // What they leave open is not closed in this phase for sure.
+    [[nodiscard]] bool reach_the_end(Bits bits) const {
+      for (std::size_t op = at_ + 1; op < phase_.size() && bits != 0; ++op)
+        if (const auto* barrier = std::get_if<Barrier>(&phase_[op].what)) bits &= ~barrier->bits;
+      return bits != 0;
+    }
+
+    const Placement& placement_;
+    const std::vector<Op>& phase_;
+    std::vector<State> states_;
+    std::size_t at_ = 0;
+  };
+
+  static void each_barrier(Op& op, const std::function<void(Barrier&)>& visit) {
+    if (auto* repeat = std::get_if<Repeat>(&op.what))
+      for (Op& inner : repeat->body) each_barrier(inner, visit);
+    if (auto* barrier = std::get_if<Barrier>(&op.what)) visit(*barrier);
+  }
+
+  static void each_barrier_of(const Placement& placement, std::vector<Op>& phase,
+                              const std::function<void(Barrier&, Walk&)>& visit) {
+    Walk walk(placement, phase);
+    for (std::size_t op = 0; op < phase.size(); ++op) {
+      walk.go_to(op);
+      each_barrier(phase[op], [&](Barrier& barrier) { visit(barrier, walk); });
+    }
+  }
+
+  static void erase_empty_barriers(std::vector<Op>& ops) {
+    for (Op& op : ops)
+      if (auto* repeat = std::get_if<Repeat>(&op.what)) erase_empty_barriers(repeat->body);
     std::erase_if(ops, [](const Op& op) {
       const auto* barrier = std::get_if<Barrier>(&op.what);
       return barrier != nullptr && barrier->bits == 0;
     });
   }
 
-  // A barrier's reasons are what would be open without it.
-  void give_reasons(std::vector<Op>& ops) {
-    for (Op& op : ops) {
-      if (auto* repeat = std::get_if<Repeat>(&op.what)) give_reasons(repeat->body);
-      if (auto* barrier = std::get_if<Barrier>(&op.what)) {
-        const Bits bits = std::exchange(barrier->bits, 0);
-        *barrier = {bits, missing().reasons};
+  void drop_needless_bits(std::vector<Op>& phase) {
+    each_barrier_of(*this, phase, [](Barrier& barrier, Walk& walk) {
+      for (const auto& [bit, bit_name] : bit_table) {
+        if ((barrier.bits & bit) == 0) continue;
+        barrier.bits &= ~bit;
+        if (walk.open_without(bit).bits != 0)
+          barrier.bits |= bit;
+        else
+          walk.drop(bit);
       }
-    }
+    });
+    erase_empty_barriers(phase);
+  }
+
+  // A barrier's reasons are what would be open without it.
+  void give_reasons(std::vector<Op>& phase) {
+    each_barrier_of(*this, phase, [](Barrier& barrier, Walk& walk) {
+      const Bits bits = std::exchange(barrier.bits, 0);
+      barrier = {bits, walk.open_without(bits).reasons};
+    });
   }
 
   Plan& plan_;
