@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -35,7 +37,8 @@ std::string state_in(const fs::path& checkpoint) {
   std::istringstream lines(read_file(checkpoint / "SHA256SUMS"));
   std::string state;
   for (std::string line; std::getline(lines, line);)
-    if (line.find("manifest.json") == std::string::npos && line.find("active_blocks.npy") == std::string::npos)
+    if (std::ranges::none_of(std::array{"manifest.json", " active_blocks.", " covered.", " leaving."},
+                             [&](const char* name) { return line.find(name) != std::string::npos; }))
       state += line + "\n";
   return state;
 }
