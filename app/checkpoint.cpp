@@ -49,6 +49,38 @@ void remove_older(const fs::path& run, std::size_t keep) {
     if (entry.path().extension() == ".part") fs::remove_all(entry.path(), error);  // of a run that was killed
 }
 
+void write_files(const fs::path& folder, const execution::Execution& execution, const graph::Clock& clock, json about) {
+  const graph::Plan& plan = execution.plan();
+  json buffers = json::array();
+  std::map<std::string, std::string> hashes;
+  const auto add = [&](const std::string& name, std::string_view content) {
+    write_file(folder / name, content);
+    hashes[name] = sha256(content);
+  };
+  for (const int b : kept(plan)) {
+    const graph::PlannedBuffer& buffer = plan.buffers[static_cast<std::size_t>(b)];
+    const PackedArray array = pack(plan, buffer, execution.read(buffer.name));
+    add(array_file(buffer.name), array.file);
+    buffers.push_back({{"name", buffer.name},
+                       {"file", array_file(buffer.name)},
+                       {"type", graph::name(buffer.type)},
+                       {"domain", buffer.domain},
+                       {"count", buffer.count},
+                       {"unit", buffer.unit},
+                       {"not_a_number", array.no_numbers}});
+  }
+  about["format"] = format_name;
+  about["version"] = format_version;
+  about["written"] = now_in_utc();
+  about["step"] = clock.step;
+  about["frame"] = clock.frame;
+  about["time"] = clock.time;
+  about["dt"] = clock.dt;
+  about["buffers"] = buffers;
+  add(checkpoint_manifest, about.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+  write_file(folder / hash_list, hash_lines(hashes));
+}
+
 json read_manifest(const fs::path& file) {
   json manifest = json::parse(read_whole(file, longest_manifest), nullptr, false);
   if (manifest.is_discarded() || !manifest.is_object()) refuse(file, "is no JSON object");
@@ -106,7 +138,7 @@ std::string offer(const fs::path& broken) {
   std::vector<fs::path> all = checkpoints_of(broken.parent_path().parent_path());
   std::ranges::reverse(all);
   const std::string name = broken.filename().string();
-  std::ranges::stable_partition(all, [&](const fs::path& each) { return each.filename().string() < name; });
+  std::stable_partition(all.begin(), all.end(), [&](const fs::path& each) { return each.filename().string() < name; });
   for (const fs::path& each : all)
     if (each.filename() != broken.filename()) try {
         read_one(each);
@@ -153,44 +185,19 @@ std::vector<fs::path> checkpoints_of(const fs::path& run) {
 
 fs::path write_checkpoint(const fs::path& run, execution::Execution& execution, json about, std::size_t keep) {
   execution.flush();
-  const graph::Clock& clock = execution.clock();
-  const graph::Plan& plan = execution.plan();
-  const fs::path folder = run / "checkpoints" / checkpoint_name(clock.step);
+  const fs::path folder = run / "checkpoints" / checkpoint_name(execution.clock().step);
   fs::path part = folder;
   part += ".part";
-  fs::remove_all(part);
-  fs::create_directories(part);
-
-  json buffers = json::array();
-  std::map<std::string, std::string> hashes;
-  const auto add = [&](const std::string& name, std::string_view content) {
-    write_file(part / name, content);
-    hashes[name] = sha256(content);
-  };
-  for (const int b : kept(plan)) {
-    const graph::PlannedBuffer& buffer = plan.buffers[static_cast<std::size_t>(b)];
-    const PackedArray array = pack(plan, buffer, execution.read(buffer.name));
-    add(array_file(buffer.name), array.file);
-    buffers.push_back({{"name", buffer.name},
-                       {"file", array_file(buffer.name)},
-                       {"type", graph::name(buffer.type)},
-                       {"domain", buffer.domain},
-                       {"count", buffer.count},
-                       {"unit", buffer.unit},
-                       {"not_a_number", array.no_numbers}});
+  try {
+    fs::remove_all(part);
+    fs::create_directories(part);
+    write_files(part, execution, execution.clock(), std::move(about));
+    make_all_durable(part);
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(part, ignored);  // a full disk is not to be filled with what is of no use
+    throw;
   }
-  about["format"] = format_name;
-  about["version"] = format_version;
-  about["written"] = now_in_utc();
-  about["step"] = clock.step;
-  about["frame"] = clock.frame;
-  about["time"] = clock.time;
-  about["dt"] = clock.dt;
-  about["buffers"] = buffers;
-  add(checkpoint_manifest, about.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
-  write_file(part / hash_list, hash_lines(hashes));
-  make_all_durable(part);
-
   if (fs::exists(folder)) fs::remove_all(folder);  // of a run that went this way before
   fs::rename(part, folder);
   make_durable(run / "checkpoints");
@@ -214,6 +221,13 @@ Checkpoint read_checkpoint(const fs::path& folder) {
 fs::path run_of(const Checkpoint& checkpoint) {
   const fs::path folder = fs::absolute(checkpoint.folder).lexically_normal();
   return folder.parent_path().filename() == "checkpoints" ? folder.parent_path().parent_path() : fs::path();
+}
+
+void go_back_to(const Checkpoint& checkpoint, std::size_t keep) {
+  const fs::path run = run_of(checkpoint);
+  for (const fs::path& each : checkpoints_of(run))
+    if (each.filename() > checkpoint.folder.filename()) fs::remove_all(each);
+  remove_older(run, std::max<std::size_t>(keep, 1));
 }
 
 std::vector<std::string> restore(const Checkpoint& checkpoint, execution::Execution& execution) {

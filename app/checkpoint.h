@@ -35,6 +35,9 @@ Checkpoint read_checkpoint(const std::filesystem::path& folder);
 // The run's folder that a checkpoint lies in.
 std::filesystem::path run_of(const Checkpoint& checkpoint);
 
+// Those of the run that are newer go, as it goes this way again; of the others, the newest `keep` stay.
+void go_back_to(const Checkpoint& checkpoint, std::size_t keep);
+
 // Fills the buffers and sets the clock. Throws config::InputError where an array is not what the plan calls for. Returns the
 // buffers of the plan that the checkpoint has nothing for: every step makes them anew.
 std::vector<std::string> restore(const Checkpoint& checkpoint, execution::Execution& execution);

@@ -219,21 +219,23 @@ int run(const RunOptions& given) {
                static_cast<double>(loaded.plan.bytes) / (1 << 20), device->info().name);
   warn_of_long_steps(scene);
 
-  const RunFolder folder(start.output, start.claim);
-  if (!folder.moved().empty())
-    spdlog::info("the earlier run in {} is now in {}; --force would have replaced it", folder.path().string(),
-                 folder.moved().string());
+  std::optional<RunFolder> folder;  // locked until the film, too, is closed
   execution::Execution execution(*device, loaded.plan, loaded.registry, {shader_folders(), options.barriers == "all", false});
+  folder.emplace(start.output, start.claim);
+  if (!folder->moved().empty())
+    spdlog::info("the earlier run in {} is now in {}; --force would have replaced it", folder->path().string(),
+                 folder->moved().string());
   std::vector<std::string> left_out;
   if (start.checkpoint) {
     left_out = restore(*start.checkpoint, execution);
-    remove_frames_from(folder.path(), start.checkpoint->clock.frame);
+    if (start.claim == Claim::resume) go_back_to(*start.checkpoint, options.keep_checkpoints.value_or(default_keep));
+    remove_frames_from(folder->path(), start.checkpoint->clock.frame);
     spdlog::info("going on from {}: step {}, frame {}, {:.4f} s", start.checkpoint->folder.string(), start.checkpoint->clock.step,
                  start.checkpoint->clock.frame, start.checkpoint->clock.time);
   }
   watch_signals();
-  RunLog log(folder.path());
-  Session session(start, loaded, dumps, device->info(), identity, folder.path(), log, execution);
+  RunLog log(folder->path());
+  Session session(start, loaded, dumps, device->info(), identity, folder->path(), log, execution);
   const Status status = session.run(left_out);
   if (status != Status::done || start.repeated.is_null()) return status;
   return tell_of_repeat(start.repeated, identity, device->info().name, session.outputs()) ? Status::done : Status::failed;

@@ -140,7 +140,8 @@ class Video final : public graph::HostStage {
                                        "bt709",
                                        "-color_trc",
                                        "bt709"};
-    if (has_x264(ffmpeg, folder_ / "encoders.txt"))
+    if (!x264_) x264_ = has_x264(ffmpeg, folder_ / "encoders.txt");
+    if (*x264_)
       for (const std::string& word : {std::string("-c:v"), std::string("libx264"), std::string("-crf"), fmt::format("{}", loss_)})
         arguments.push_back(word);
     for (const std::string& word : {std::string("-movflags"), std::string("+faststart"), part().string()})
@@ -187,6 +188,7 @@ class Video final : public graph::HostStage {
   int loss_;
   fs::path folder_;
   bool without_ffmpeg_ = false;
+  std::optional<bool> x264_;  // whether ffmpeg has it, once that is known
   std::optional<Process> encoder_;
   std::optional<std::uint64_t> first_;  // frame of the part that is being written; none: it has no picture yet
   std::uint64_t last_ = 0;

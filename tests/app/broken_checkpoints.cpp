@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "app/checkpoint.h"
 #include "app/checkpoint_files.h"
 #include "app/files.h"
 #include "app/sha256.h"
@@ -99,28 +100,46 @@ TEST_CASE("a checkpoint with a byte changed, a file cut short or missing is refu
   const Run run;
   INFO("seed " << seed());
   std::mt19937_64 random(seed());
-  const std::string offer = "another checkpoint of this run is whole: --resume " + run.older().string();
+  const std::string offer = "; another checkpoint of this run is whole: --resume " + run.older().string();
+  const auto refusal = [&]() -> std::string {
+    try {
+      firn::app::read_checkpoint(run.run());
+    } catch (const firn::config::InputError& error) {
+      return error.what();
+    }
+    return "read without a word";
+  };
+  CHECK(refusal() == "read without a word");
   for (const auto& [name, content] : run.whole()) {
     CAPTURE(name);
     const auto place = [&] { return std::uniform_int_distribution<std::size_t>(0, content.size() - 1)(random); };
     const fs::path file = run.newer() / name;
-    for (int flip = 0; flip < 2; ++flip) {
+    const auto check_refused = [&] {
+      // Where the list of hashes itself was changed, it may be another file that is not as listed.
+      const std::string text = refusal();
+      INFO(text);
+      CHECK(text.starts_with((name == firn::app::hash_list ? run.newer() : file).string()));
+      CHECK(text.ends_with(offer));
+    };
+    for (int flip = 0; flip < 12; ++flip) {
       std::string changed = content;
       const std::size_t at = place();
       changed[at] = static_cast<char>(changed[at] ^ (1 << (random() % 8)));
       CAPTURE(at);
       write(file, changed);
-      // Where the list of hashes itself was changed, it may be another file that is not as listed.
-      CHECK(refused(run, name == firn::app::hash_list ? run.newer().string() : file.string()).err.find(offer) != std::string::npos);
+      check_refused();
     }
     write(file, content.substr(0, place()));
-    refused(run, run.newer().string());
+    check_refused();
+    write(file, content + content.back());
+    check_refused();
     fs::remove(file);
-    refused(run, file.string() + ": error: this file is missing");
+    check_refused();
+    CHECK(refusal().find(file.string() + ": error: this file is missing") == 0);
     write(file, content);
   }
   write(run.newer() / "more.npy.zst", "what is this");
-  refused(run, "more.npy.zst: error: does not belong to this checkpoint");
+  refused(run, "more.npy.zst: error: does not belong to this checkpoint" + offer);
   fs::remove(run.newer() / "more.npy.zst");
   CHECK(run_firn({"run", "--resume", run.run(), "-q"}).status == 0);
 }
