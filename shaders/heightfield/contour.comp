@@ -4,29 +4,40 @@
 #include "lib/direction.glsl"
 #include "lib/own_cell.glsl"
 
+// Of a neighbour: the body that overlaps it, -1: none; and how deep.
+struct Overlap {
+  int body;
+  float depth;
+};
+
+Overlap overlap_of(ivec2 cell) {
+  Overlap found = Overlap(-1, 0.0);
+  if (!in_field(cell)) return found;
+  found.depth = overlap_at(cell_index(cell));
+  if (found.depth > 0.0) found.body = owner_at(cell_index(cell));
+  if (found.body >= int(bodies_count)) found.body = -1;
+  return found;
+}
+
+// A part of minus the Sobel gradient of one body's overlap, weights 1 2 1: outward.
+vec2 slope_part(Overlap at, int body, int n) {
+  return at.body == body ? -(n < 4 ? 2.0 : 1.0) * at.depth * vec2(neighbor_offsets[n]) : vec2(0.0);
+}
+
 void main() {
   ivec2 cell;
   if (!own_cell(cell)) return;
   int i = cell_index(cell), best_owner = -1;
   float best = 0.0;
   if (!(overlap_at(i) > 0.0)) {
-    float d[8];
-    int body[8];
+#define LOOK(n) Overlap at##n = overlap_of(cell + neighbor_offsets[n]);
+    FOR_NEIGHBORS(LOOK)
+    ivec4 straight = ivec4(at0.body, at1.body, at2.body, at3.body), diagonal = ivec4(at4.body, at5.body, at6.body, at7.body);
     for (int n = 0; n < 8; ++n) {
-      ivec2 at = cell + neighbor_offsets[n];
-      d[n] = 0.0;
-      body[n] = -1;
-      if (!in_field(at)) continue;
-      d[n] = overlap_at(cell_index(at));
-      if (d[n] > 0.0) body[n] = owner_at(cell_index(at));
-    }
-    for (int n = 0; n < 8; ++n) {
-      int b = body[n];
-      if (b < 0 || b >= int(bodies_count)) continue;
-      // Minus the Sobel gradient, weights 1 2 1: outward.
-      vec2 outward = vec2(0.0);
-      for (int m = 0; m < 8; ++m)
-        if (body[m] == b) outward -= (m < 4 ? 2.0 : 1.0) * d[m] * vec2(neighbor_offsets[m]);
+      int b = n < 4 ? straight[n] : diagonal[n - 4];
+      if (b < 0 || b == best_owner) continue;
+      vec2 outward = slope_part(at0, b, 0) + slope_part(at1, b, 1) + slope_part(at2, b, 2) + slope_part(at3, b, 3) +
+                     slope_part(at4, b, 4) + slope_part(at5, b, 5) + slope_part(at6, b, 6) + slope_part(at7, b, 7);
       float size = length(outward);
       float s = direction_factor(body_velocity[b], size > 0.0 ? outward / size : vec2(0.0));
       if (best_owner < 0 || s > best || (s == best && b < best_owner)) {
