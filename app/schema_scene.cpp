@@ -100,17 +100,22 @@ json material() {
 json snow() {
   const json points = map({{"file", text(".npy, N x 3 or N x 6 with velocities")}, {"mass", number("kg per particle", positive)}},
                           {"file", "mass"});
+  json solid_mesh = mesh();
+  solid_mesh["properties"]["rotate"] = orientation();
+  solid_mesh["properties"]["translate"] = vector("m, after scale and rotate");
   json schema = map({{"sphere", sphere(true)},
                      {"box", box(true)},
                      {"capsule", capsule()},
+                     {"mesh", solid_mesh},
                      {"points", points},
                      {"material", text("one of the materials above, or a preset")},
                      {"velocity", vector("m/s")},
                      {"spin", vector("rad/s")},
                      {"orientation", orientation()},
-                     {"per_cell", integer("particles per cell of the grid", {1.0, 64.0, {}, {}})}},
+                     {"per_cell", integer("particles per cell of the grid", {1.0, 64.0, {}, {}})},
+                     {"sampling", {{"enum", {"jittered", "poisson"}}, {"description", "poisson: particles keep a distance"}}}},
                     {"material"});
-  schema["oneOf"] = one_of_keys({"sphere", "box", "capsule", "points"});
+  schema["oneOf"] = one_of_keys({"sphere", "box", "capsule", "mesh", "points"});
   return schema;
 }
 

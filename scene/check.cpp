@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/mesh_solid.h"
 #include "scene/read.h"
 #include "scene/sampling.h"
 #include "scene/solid.h"
@@ -15,15 +16,14 @@ constexpr double most_particles = 2147483648.0;  // 2^31: particles are counted 
 // Position 3, velocity 3, elastic deformation 9, plastic volume, volume, mass (part M of the model): 18 floats.
 constexpr double bytes_per_particle = 72;
 
-void check_inside(const Snow& snow, const Solid& solid, const Domain& domain, Diagnostics& diagnostics) {
-  const Bounds bounds = bounds_of(solid);
+void check_inside(const Snow& snow, const Bounds& bounds, const char* name, const Domain& domain, Diagnostics& diagnostics) {
   const double margin = stencil_margin * domain.cell, tolerance = 1e-6 * domain.cell;
   const auto report = [&](int axis, const char* side, double excess, double reached, const char* order, double limit) {
     diagnostics.error(
         snow.place,
         fmt::format("the {} sticks out of the domain by {:.6g} m on the {} {} side: it reaches {:.6g}, but snow must stay at "
                     "{} {} {:.6g}, {} cells from the domain's face",
-                    name_of(solid.shape), excess, side, "xyz"[axis], reached, "xyz"[axis], order, limit, stencil_margin));
+                    name, excess, side, "xyz"[axis], reached, "xyz"[axis], order, limit, stencil_margin));
   };
   for (int axis = 0; axis < 3; ++axis) {
     const double low = domain.min[axis] + margin, high = domain.max[axis] - margin;
@@ -63,9 +63,12 @@ std::optional<Bounds> swept_bounds(const Body& body, const Time& time, const Vec
 void check_snow(const std::vector<Snow>& snow, const Domain& domain, Diagnostics& diagnostics) {
   double particles = 0;
   for (const Snow& each : snow) {
-    const std::optional<Solid> solid = solid_of(each);
-    if (!solid) continue;
-    check_inside(each, *solid, domain, diagnostics);
+    if (const std::optional<Solid> solid = solid_of(each))
+      check_inside(each, bounds_of(*solid), name_of(solid->shape), domain, diagnostics);
+    else if (const auto* mesh = std::get_if<SolidMesh>(&each.what))
+      check_inside(each, mesh->solid->bounds(), "mesh", domain, diagnostics);
+    else
+      continue;
     const double more = estimate_particles(each, domain);
     if (particles <= most_particles && particles + more > most_particles)
       diagnostics.error(

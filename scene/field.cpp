@@ -17,7 +17,8 @@ std::vector<double> values_of(const FieldSource& source, const Field& field, con
   const std::size_t count = static_cast<std::size_t>(field.cells_x) * static_cast<std::size_t>(field.cells_z);
   if (source.image.empty()) return std::vector<double>(count, source.value);
   try {
-    std::vector<double> values = resample(read_image(source.image), field.cells_x, field.cells_z).values;
+    std::vector<double> values =
+        resample(read_image(source.image, field.cells_x, field.cells_z), field.cells_x, field.cells_z).values;
     for (double& value : values) value *= source.unit_value;
     return values;
   } catch (const std::runtime_error& error) {

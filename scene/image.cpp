@@ -111,9 +111,30 @@ GreyImage read_array(const std::string& file) {
   return {static_cast<int>(width), static_cast<int>(array.shape[0]), std::move(array.values)};
 }
 
+GreyImage read_floats(const std::string& file, int width, int height) {
+  const std::string bytes = read_bytes(file);
+  const std::size_t count = bytes.size() / sizeof(float);
+  const auto side = static_cast<std::size_t>(std::llround(std::sqrt(static_cast<double>(count))));
+  const bool fits = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) == count;
+  if (count == 0 || bytes.size() % sizeof(float) != 0 || (!fits && side * side != count))
+    fail(file, fmt::format("an .f32 file must hold {} x {} values of 4 bytes, or a square of them, not {} bytes", width, height,
+                           bytes.size()));
+  if (static_cast<double>(count) > most_pixels) fail(file, fmt::format("{} values are too many for an image; at most 2^28", count));
+  GreyImage image{fits ? width : static_cast<int>(side), fits ? height : static_cast<int>(side), {}};
+  for (std::size_t i = 0; i < count; ++i) {
+    float value;
+    std::memcpy(&value, bytes.data() + i * sizeof(value), sizeof(value));
+    if (!std::isfinite(value))
+      fail(file, fmt::format("value {} (row {}) is {}, but must be a finite number", i, i / static_cast<std::size_t>(image.width),
+                             value));
+    image.values.push_back(static_cast<double>(value));
+  }
+  return image;
+}
+
 }  // namespace
 
-bool is_array(std::string_view file) { return file.ends_with(".npy"); }
+bool is_array(std::string_view file) { return file.ends_with(".npy") || file.ends_with(".f32"); }
 
 GreyImage parse_png(std::string_view bytes, const std::string& name) {
   if (bytes.size() < 8 || png_sig_cmp(reinterpret_cast<png_const_bytep>(bytes.data()), 0, 8) != 0)
@@ -125,6 +146,10 @@ GreyImage parse_png(std::string_view bytes, const std::string& name) {
   if (static_cast<double>(reading.width) * reading.height > most_pixels)
     fail(name, fmt::format("a PNG file of {} x {} pixels is too large; at most 2^28", reading.width, reading.height));
 
+  // Deflate makes 1 byte of at most 1032.
+  if (reading.row_bytes * reading.height / 1032 > bytes.size())
+    fail(name, fmt::format("this PNG file is cut off: {} x {} pixels do not fit into {} bytes", reading.width, reading.height,
+                           bytes.size()));
   std::vector<png_byte> raw(reading.row_bytes * reading.height);
   std::vector<png_bytep> rows(reading.height);
   for (std::size_t row = 0; row < rows.size(); ++row) rows[row] = raw.data() + row * reading.row_bytes;
@@ -145,7 +170,10 @@ GreyImage parse_png(std::string_view bytes, const std::string& name) {
   return image;
 }
 
-GreyImage read_image(const std::string& file) { return is_array(file) ? read_array(file) : parse_png(read_bytes(file), file); }
+GreyImage read_image(const std::string& file, int width, int height) {
+  if (file.ends_with(".f32")) return read_floats(file, width, height);
+  return is_array(file) ? read_array(file) : parse_png(read_bytes(file), file);
+}
 
 GreyImage resample(const GreyImage& image, int width, int height) {
   if (image.width == width && image.height == height) return image;

@@ -1,6 +1,7 @@
 #pragma once
 
-// Grey images as sources of numbers: PNG files and two-dimensional .npy arrays.
+// Grey images as sources of numbers: PNG files, two-dimensional .npy arrays, and .f32 files of nothing but floats (32 bits, little
+// endian, row by row).
 //
 // PNG of 1 to 16 bits per channel: black is 0, white is 1, and the stored values are taken as they are, whatever gamma or profile
 // the file names. Colour becomes grey by the weights of Rec. 709, 0.2126 R + 0.7152 G + 0.0722 B; grey is then multiplied by alpha,
@@ -18,10 +19,11 @@ struct GreyImage {
   std::vector<double> values;  // [row, column]
 };
 
-bool is_array(std::string_view file);  // does the name end in .npy?
+bool is_array(std::string_view file);  // plain values: does the name end in .npy or .f32?
 
-// The kind of file is told by its name. Throws std::runtime_error with a sentence that names the file; values are finite.
-GreyImage read_image(const std::string& file);
+// The kind of file is told by its name. An .f32 file does not say how wide it is: it has `width` x `height` values, or is square.
+// Throws std::runtime_error with a sentence that names the file; values are finite.
+GreyImage read_image(const std::string& file, int width = 0, int height = 0);
 // `name` stands for the file in error texts.
 GreyImage parse_png(std::string_view bytes, const std::string& name);
 

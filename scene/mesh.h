@@ -13,6 +13,7 @@ namespace firn::scene {
 struct TriangleMesh {
   std::vector<Vector3d> points;               // m, in the body's own axes; no two in one place
   std::vector<std::array<int, 3>> triangles;  // counter-clockwise seen from outside, where the mesh is closed
+  std::size_t without_area = 0;               // triangles of the file that were left out
 };
 
 // The mesh with its points times `scale`. Polygons become triangles, corners in one place become one point, triangles without

@@ -31,7 +31,7 @@ std::optional<Vector3d> required_vector3(Reader& reader, std::string_view key, c
 std::optional<std::vector<double>> read_numbers(const Node& node, std::string_view what, std::size_t count, const Range& range,
                                                 Diagnostics& diagnostics);
 // A unit quaternion [x, y, z, w], or {axis, degrees}.
-Quaterniond orientation(Reader& reader, const Quaterniond& fallback);
+Quaterniond orientation(Reader& reader, const Quaterniond& fallback, std::string_view key = "orientation");
 // The items of a list; a key with nothing behind it is an empty one.
 const std::vector<Node>& list(Reader& reader, std::string_view key);
 // An existing file, relative to `folder`.
@@ -52,6 +52,8 @@ std::optional<Sphere> read_sphere(const Node& node, bool center_required, Diagno
 std::optional<Box> read_box(const Node& node, bool center_required, Diagnostics& diagnostics);
 std::optional<Capsule> read_capsule(const Node& node, Diagnostics& diagnostics);
 std::optional<Mesh> read_mesh(const Node& node, const std::filesystem::path& folder, Diagnostics& diagnostics);
+// With `rotate` and `translate` besides; reads the file. What is wrong with the mesh, but can be borne, is a warning.
+std::optional<SolidMesh> read_solid_mesh(const Node& node, const std::filesystem::path& folder, Diagnostics& diagnostics);
 
 // --- the sections -------------------------------------------------------------------------------------------------------
 

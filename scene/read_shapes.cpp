@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
 
+#include "scene/mesh_solid.h"
 #include "scene/read.h"
 
 namespace firn::scene::detail {
@@ -81,6 +83,28 @@ std::optional<Mesh> read_mesh(const Node& node, const std::filesystem::path& fol
   reader.finish();
   if (!file) return std::nullopt;
   return Mesh{*file, scale};
+}
+
+std::optional<SolidMesh> read_solid_mesh(const Node& node, const std::filesystem::path& folder, Diagnostics& diagnostics) {
+  Reader reader(node, "a mesh", diagnostics);
+  const std::optional<std::string> file = required_file(reader, "file", folder);
+  const double scale = reader.number("scale", 1, positive);
+  const Quaterniond rotate = orientation(reader, Quaterniond::Identity(), "rotate");
+  const Vector3d translate = vector3(reader, "translate", Vector3d::Zero());
+  reader.finish();
+  if (!file) return std::nullopt;
+  try {
+    TriangleMesh mesh = scene::read_mesh(*file, scale);
+    for (Vector3d& point : mesh.points) point = translate + rotate * point;
+    if (const std::string wrong = to_string(repair(mesh)); !wrong.empty())
+      diagnostics.warning(
+          node.place,
+          fmt::format("{}: this mesh has {}; what is inside is found all the same, but look at the result", *file, wrong));
+    return SolidMesh{{*file, scale}, std::make_shared<const MeshSolid>(std::move(mesh))};
+  } catch (const std::runtime_error& error) {
+    diagnostics.error(node.find("file")->place, error.what());
+    return std::nullopt;
+  }
 }
 
 }  // namespace firn::scene::detail

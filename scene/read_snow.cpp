@@ -47,10 +47,7 @@ std::optional<Snow> read_snow(const Node& node, const std::filesystem::path& fol
   } else if (kind && kind->name == "points") {
     take(read_point_file(*kind->node, folder, diagnostics));
   } else if (kind) {
-    take(read_mesh(*kind->node, folder, diagnostics));
-    diagnostics.error(
-        kind->node->place,
-        "snow from meshes is not supported; fill the mesh with points elsewhere and use them as points: {file, mass}");
+    take(read_solid_mesh(*kind->node, folder, diagnostics));
   }
 
   const std::optional<int> material = required_material(reader, "material", materials);
@@ -58,9 +55,14 @@ std::optional<Snow> read_snow(const Node& node, const std::filesystem::path& fol
   snow.spin = vector3(reader, "spin", snow.spin);
   snow.orientation = orientation(reader, snow.orientation);
   snow.per_cell = static_cast<int>(reader.integer("per_cell", snow.per_cell, {1, 64}));
+  snow.sampling =
+      reader.choice("sampling", {"jittered", "poisson"}, "jittered") == "poisson" ? Sampling::poisson : Sampling::jittered;
   reader.finish();
+  if (kind && kind->name == "mesh")
+    if (const Node* given = node.find("orientation"))
+      diagnostics.error(given->place, "a mesh is turned by 'rotate' beside its file; 'orientation' is for boxes and capsules");
   if (kind && kind->name == "points")
-    for (const char* key : {"orientation", "per_cell"})
+    for (const char* key : {"orientation", "per_cell", "sampling"})
       if (const Node* given = node.find(key))
         diagnostics.error(given->place,
                           fmt::format("'{}' has no meaning for points, which stand where their file says; remove it", key));

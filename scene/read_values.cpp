@@ -67,14 +67,14 @@ std::optional<Quaterniond> axis_angle_of(const Node& node, Diagnostics& diagnost
 
 }  // namespace
 
-Quaterniond orientation(Reader& reader, const Quaterniond& fallback) {
-  const Node* node = reader.find("orientation");
+Quaterniond orientation(Reader& reader, const Quaterniond& fallback, std::string_view key) {
+  const Node* node = reader.find(key);
   if (node == nullptr) return fallback;
   if (node->kind == Node::Kind::map) return axis_angle_of(*node, reader.diagnostics()).value_or(fallback);
   if (node->kind == Node::Kind::sequence) return quaternion_of(*node, reader.diagnostics()).value_or(fallback);
-  reader.diagnostics().error(node->place,
-                             fmt::format("orientation must be a quaternion [x, y, z, w] or {{axis: [x, y, z], degrees: a}}, not {}",
-                                         config::describe(*node)));
+  reader.diagnostics().error(
+      node->place,
+      fmt::format("{} must be a quaternion [x, y, z, w] or {{axis: [x, y, z], degrees: a}}, not {}", key, config::describe(*node)));
   return fallback;
 }
 

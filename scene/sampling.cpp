@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 #include <stdexcept>
 
+#include "scene/mesh_solid.h"
 #include "scene/points.h"
 #include "scene/read.h"
 #include "scene/repeatable.h"
@@ -38,34 +41,6 @@ CellRange cells_touched(const Bounds& bounds, const Domain& domain) {
   return range;
 }
 
-// Appends the cells of `range` that may touch the solid. Whole blocks that lie too far from it are left out at once: a thin solid
-// that lies askew fills next to nothing of its bounding box.
-void add_cells_near(const Inside& inside, const CellRange& range, const Domain& domain, std::vector<Eigen::Vector3i>& cells) {
-  const Eigen::Vector3i size = range.end - range.begin;
-  if ((size.array() <= 0).any()) return;
-  const Vector3d half = 0.5 * domain.cell * size.cast<double>();
-  const Vector3d center = domain.min + domain.cell * range.begin.cast<double>() + half;
-  const double rounding = 1e-9 * (domain.cell + domain.min.cwiseAbs().maxCoeff() + domain.max.cwiseAbs().maxCoeff());
-  if (inside.distance(center) > half.norm() + rounding) return;
-  int longest = 0;
-  if (size.maxCoeff(&longest) == 1) {
-    cells.push_back(range.begin);
-    return;
-  }
-  CellRange low = range, high = range;
-  low.end[longest] = high.begin[longest] = range.begin[longest] + size[longest] / 2;
-  add_cells_near(inside, low, domain, cells);
-  add_cells_near(inside, high, domain, cells);
-}
-
-// By z, then y, then x.
-std::vector<Eigen::Vector3i> cells_near(const Inside& inside, const CellRange& range, const Domain& domain) {
-  std::vector<Eigen::Vector3i> cells;
-  add_cells_near(inside, range, domain, cells);
-  std::ranges::sort(cells, {}, [](const Eigen::Vector3i& at) { return std::array{at.z(), at.y(), at.x()}; });
-  return cells;
-}
-
 // The factors of sub_cells() dealt to the axes; one of the six orders, by the cell's own draw.
 Eigen::Vector3i dealt(std::array<int, 3> factors, std::uint64_t draw) {
   if (factors[0] != factors[2]) {
@@ -88,19 +63,75 @@ void add(Particles& particles, const Vector3d& position, const Vector3d& velocit
   particles.material.push_back(material);
 }
 
-void fill(const Solid& solid, const Snow& snow, std::uint64_t snow_index, const Scene& scene, Particles& particles) {
+// A shape to be filled: a solid or a mesh.
+struct Filling {
+  Bounds bounds;
+  Vector3d center;
+  std::function<bool(const Vector3d&)> inside;
+  // Whether all of a ball is inside or none of it, where that can be told at once.
+  std::function<std::optional<bool>(const Vector3d& center, double radius)> whole;
+};
+
+Filling filling(const Solid& solid) {
+  const Inside inside(solid);
+  return {bounds_of(solid), center_of(solid.shape), inside, [inside](const Vector3d& center, double radius) {
+            return inside.distance(center) > radius ? std::optional(false) : std::nullopt;
+          }};
+}
+
+Filling filling(const MeshSolid& mesh) {
+  return {mesh.bounds(), mass_properties(mesh.mesh()).center, [&](const Vector3d& point) { return mesh.inside(point); },
+          [&](const Vector3d& center, double radius) { return mesh.inside(center, radius); }};
+}
+
+// Whether all of a cell is inside, none, or each point has to be asked.
+std::optional<bool> whole_cell(const Filling& shape, const Eigen::Vector3i& at, const Domain& domain) {
+  const Vector3d center = domain.min + domain.cell * (at.cast<double>() + Vector3d::Constant(0.5));
+  return shape.whole(center, 0.5 * std::sqrt(3.0) * domain.cell);
+}
+
+// Appends the cells of `range` that may touch the shape. Whole blocks that lie too far from it are left out at once: a thin one
+// that lies askew fills next to nothing of its bounding box.
+void add_cells_near(const Filling& shape, const CellRange& range, const Domain& domain, std::vector<Eigen::Vector3i>& cells) {
+  const Eigen::Vector3i size = range.end - range.begin;
+  if ((size.array() <= 0).any()) return;
+  const Vector3d half = 0.5 * domain.cell * size.cast<double>();
+  const Vector3d center = domain.min + domain.cell * range.begin.cast<double>() + half;
+  const double rounding = 1e-9 * (domain.cell + domain.min.cwiseAbs().maxCoeff() + domain.max.cwiseAbs().maxCoeff());
+  if (shape.whole(center, half.norm() + rounding) == false) return;
+  int longest = 0;
+  if (size.maxCoeff(&longest) == 1) {
+    cells.push_back(range.begin);
+    return;
+  }
+  CellRange low = range, high = range;
+  low.end[longest] = high.begin[longest] = range.begin[longest] + size[longest] / 2;
+  add_cells_near(shape, low, domain, cells);
+  add_cells_near(shape, high, domain, cells);
+}
+
+// By z, then y, then x.
+std::vector<Eigen::Vector3i> cells_near(const Filling& shape, const CellRange& range, const Domain& domain) {
+  std::vector<Eigen::Vector3i> cells;
+  add_cells_near(shape, range, domain, cells);
+  std::ranges::sort(cells, {}, [](const Eigen::Vector3i& at) { return std::array{at.z(), at.y(), at.x()}; });
+  return cells;
+}
+
+void fill(const Filling& shape, const Snow& snow, std::uint64_t snow_index, const Scene& scene, Particles& particles) {
   const Domain& domain = *scene.domain;
   const double cell = domain.cell;
   const double volume = cell * cell * cell / snow.per_cell;
   const double mass = scene.materials[static_cast<std::size_t>(snow.material)].density * volume;
   const std::array<int, 3> factors = sub_cells(snow.per_cell);
-  const Motion motion{snow.velocity, snow.spin, center_of(solid.shape)};
-  const Inside inside(solid);
+  const Motion motion{snow.velocity, snow.spin, shape.center};
 
-  for (const Eigen::Vector3i& at : cells_near(inside, cells_touched(bounds_of(solid), domain), domain)) {
+  for (const Eigen::Vector3i& at : cells_near(shape, cells_touched(shape.bounds, domain), domain)) {
     const std::uint64_t draw = hash({scene.seed, snow_index, static_cast<std::uint64_t>(at.x()), static_cast<std::uint64_t>(at.y()),
                                      static_cast<std::uint64_t>(at.z())});
     const Eigen::Vector3i count = dealt(factors, draw);
+    const std::optional<bool> whole = whole_cell(shape, at, domain);
+    if (whole == false) continue;
     for (int sub = 0; sub < snow.per_cell; ++sub) {
       const Eigen::Vector3i index(sub % count.x(), sub / count.x() % count.y(), sub / (count.x() * count.y()));
       Vector3d position;
@@ -109,9 +140,77 @@ void fill(const Solid& solid, const Snow& snow, std::uint64_t snow_index, const 
         const double in_cells = at[axis] + (index[axis] + jitter) / count[axis];
         position[axis] = std::fma(cell, in_cells, domain.min[axis]);
       }
-      if (inside(position)) add(particles, position, motion.at(position), mass, volume, snow.material);
+      if (whole || shape.inside(position)) add(particles, position, motion.at(position), mass, volume, snow.material);
     }
   }
+}
+
+// Random places no two of which are nearer than a distance, as many as find room (random sequential addition, in rounds of
+// `per_cell` darts a cell). The distance is such that about per_cell stay in a cell.
+void scatter(const Filling& shape, const Snow& snow, std::uint64_t snow_index, const Scene& scene, Particles& particles) {
+  constexpr std::uint64_t rounds = 24;
+  constexpr double crowding = 0.66;  // places per cube of the distance after so many rounds, measured
+  const Domain& domain = *scene.domain;
+  const double cell = domain.cell, distance = cell * std::cbrt(crowding / snow.per_cell);
+  const CellRange range = cells_touched(shape.bounds, domain);
+  const Eigen::Vector3i extent = range.end - range.begin;
+  if ((extent.array() <= 0).any()) return;
+  std::vector<std::vector<Vector3d>> places(static_cast<std::size_t>(extent.prod()));
+  const auto index = [&](int x, int y, int z) {
+    return (static_cast<std::size_t>(z) * static_cast<std::size_t>(extent.y()) + static_cast<std::size_t>(y)) *
+               static_cast<std::size_t>(extent.x()) +
+           static_cast<std::size_t>(x);
+  };
+  const auto has_room = [&](const Vector3d& place, const Eigen::Vector3i& at) {
+    const Eigen::Vector3i low = (at - Eigen::Vector3i::Ones()).cwiseMax(0),
+                          high = (at + Eigen::Vector3i::Ones()).cwiseMin(extent - Eigen::Vector3i::Ones());
+    for (int z = low.z(); z <= high.z(); ++z)
+      for (int y = low.y(); y <= high.y(); ++y)
+        for (int x = low.x(); x <= high.x(); ++x)
+          for (const Vector3d& other : places[index(x, y, z)])
+            if ((other - place).squaredNorm() < distance * distance) return false;
+    return true;
+  };
+  std::vector<std::optional<bool>> whole(places.size());
+  std::uint64_t darts = 0, hits = 0;
+  for (std::uint64_t round = 0; round < rounds; ++round) {
+    Eigen::Vector3i at;
+    for (at.z() = 0; at.z() < extent.z(); ++at.z())
+      for (at.y() = 0; at.y() < extent.y(); ++at.y())
+        for (at.x() = 0; at.x() < extent.x(); ++at.x()) {
+          const std::size_t here = index(at.x(), at.y(), at.z());
+          if (round == 0) whole[here] = whole_cell(shape, at + range.begin, domain);
+          darts += static_cast<std::uint64_t>(snow.per_cell);
+          if (whole[here] == false) continue;
+          const std::uint64_t draw = hash({scene.seed, snow_index, here, round});
+          for (int dart = 0; dart < snow.per_cell; ++dart) {
+            Vector3d place;
+            for (int axis = 0; axis < 3; ++axis)
+              place[axis] =
+                  std::fma(cell,
+                           range.begin[axis] + at[axis] +
+                               unit_interval(hash({draw, static_cast<std::uint64_t>(dart), static_cast<std::uint64_t>(axis)})),
+                           domain.min[axis]);
+            if (!whole[here] && !shape.inside(place)) continue;
+            ++hits;
+            if (has_room(place, at)) places[here].push_back(place);
+          }
+        }
+  }
+  std::size_t count = 0;
+  for (const std::vector<Vector3d>& in_cell : places) count += in_cell.size();
+  if (count == 0) return;
+  // The share of darts that hit the shape is its share of the cells; the particles divide its volume among them.
+  const double volume = static_cast<double>(hits) / static_cast<double>(darts) * static_cast<double>(places.size()) * cell * cell *
+                        cell / static_cast<double>(count);
+  const double mass = scene.materials[static_cast<std::size_t>(snow.material)].density * volume;
+  const Motion motion{snow.velocity, snow.spin, shape.center};
+  for (const std::vector<Vector3d>& in_cell : places)
+    for (const Vector3d& place : in_cell) add(particles, place, motion.at(place), mass, volume, snow.material);
+}
+
+void fill_shape(const Filling& shape, const Snow& snow, std::uint64_t snow_index, const Scene& scene, Particles& particles) {
+  (snow.sampling == Sampling::poisson ? scatter : fill)(shape, snow, snow_index, scene, particles);
 }
 
 // Runs what reads a file of points; what is wrong with the file is told with the place in the scene that names it.
@@ -177,11 +276,11 @@ Particles sample(const Scene& scene) {
   for (std::size_t i = 0; i < scene.snow.size(); ++i) {
     const Snow& snow = scene.snow[i];
     if (const std::optional<Solid> solid = solid_of(snow)) {
-      fill(*solid, snow, i, scene, particles);
+      fill_shape(filling(*solid), snow, i, scene, particles);
+    } else if (const auto* mesh = std::get_if<SolidMesh>(&snow.what)) {
+      fill_shape(filling(*mesh->solid), snow, i, scene, particles);
     } else if (const auto* points = std::get_if<PointFile>(&snow.what)) {
       load(*points, snow, scene, particles);
-    } else {
-      fail(snow.place, "snow from meshes is not supported");
     }
   }
   return particles;
@@ -189,18 +288,22 @@ Particles sample(const Scene& scene) {
 
 double estimate_particles(const Snow& snow, const Domain& domain) {
   const std::optional<Solid> solid = solid_of(snow);
-  if (!solid) return 0;
+  const auto* mesh = std::get_if<SolidMesh>(&snow.what);
+  if (!solid && mesh == nullptr) return 0;
   const double cell = domain.cell;
   // Two bounds, the smaller counts: all sub-cells of the cells that the bounding box touches, and all sub-cells that fit among the
   // points no farther from the shape than a sub-cell is long.
-  const Bounds bounds = bounds_of(*solid);
-  double in_box = snow.per_cell;
+  const Bounds bounds = solid ? bounds_of(*solid) : mesh->solid->bounds();
+  // Particles that keep a distance crowd somewhat at a surface: beyond it there is none to keep it from.
+  const double per_cell = snow.sampling == Sampling::poisson ? 1.5 * snow.per_cell : snow.per_cell;
+  double in_box = per_cell;
   for (int axis = 0; axis < 3; ++axis)
     in_box *=
         std::floor((bounds.max[axis] - domain.min[axis]) / cell) - std::floor((bounds.min[axis] - domain.min[axis]) / cell) + 1;
   const std::array<int, 3> count = sub_cells(snow.per_cell);
   const double diagonal = cell * Vector3d(1.0 / count[0], 1.0 / count[1], 1.0 / count[2]).norm();
-  const double near = grown_volume(*solid, diagonal) / (cell * cell * cell / snow.per_cell);
+  if (mesh != nullptr) return in_box;
+  const double near = grown_volume(*solid, diagonal) / (cell * cell * cell / per_cell);
   return std::min(in_box, std::ceil(near));
 }
 

@@ -19,10 +19,11 @@ struct Particles {
   std::vector<int> material;       // index into Scene::materials
 };
 
-// Jittered grid: every grid cell of edge h is cut into exactly `per_cell` sub-cells of equal volume, one particle at a random place
-// in each; a particle is kept if it lies inside the shape. Mass = density h^3 / per_cell. A file of points gives its particles as
-// they stand. The same seed gives the same particles on every machine.
-// Throws config::InputError where a file of points cannot be read, holds a value that is not finite, or a point outside the domain.
+// Jittered (the usual): every grid cell of edge h is cut into exactly `per_cell` sub-cells of equal volume, one particle at a
+// random place in each; a particle is kept if it lies inside the shape. Mass = density h^3 / per_cell. A file of points gives its
+// particles as they stand. Poisson: particles keep a distance from each other and divide the shape's volume evenly. The same seed
+// gives the same particles on every machine. Throws config::InputError where a file of points cannot be read, holds a value that is
+// not finite, or a point outside the domain.
 Particles sample(const Scene& scene);
 
 // An upper bound of how many particles sample() makes, without making them: to tell memory before it is taken.

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -65,6 +66,7 @@ struct Mesh {
   std::string file;
   double scale = 1;
 };  // absolute or relative to the working directory
+class MeshSolid;
 using Shape = std::variant<Plane, Sphere, Box, Capsule, Mesh>;
 
 // --- snow that is filled with particles -----------------------------------------------------------------------------------
@@ -73,13 +75,20 @@ struct PointFile {
   std::string file;
   double mass = 0;
 };  // kg per particle; file: N x 3 or N x 6 (with velocity)
+// A mesh where it lies in the scene: translate + rotate (scale p_file).
+struct SolidMesh {
+  Mesh mesh;
+  std::shared_ptr<const MeshSolid> solid;  // scene/mesh_solid.h
+};
+enum class Sampling { jittered, poisson };
 struct Snow {
-  std::variant<Sphere, Box, Capsule, Mesh, PointFile> what;
+  std::variant<Sphere, Box, Capsule, SolidMesh, PointFile> what;
   int material = 0;                                   // index into Scene::materials
   Vector3d velocity{0, 0, 0};                         // added to the velocities of a file of points
   Vector3d spin{0, 0, 0};                             // rad/s about the shape's centre; points: about their mean
   Quaterniond orientation = Quaterniond::Identity();  // boxes and capsules turn about their centre
   int per_cell = 8;
+  Sampling sampling = Sampling::jittered;  // of shapes
   Place place;
 };
 

@@ -20,7 +20,7 @@ Overloaded(F...) -> Overloaded<F...>;
 }  // namespace
 
 std::optional<Solid> solid_of(const Snow& snow) {
-  return std::visit(Overloaded{[](const Mesh&) -> std::optional<Solid> { return std::nullopt; },
+  return std::visit(Overloaded{[](const SolidMesh&) -> std::optional<Solid> { return std::nullopt; },
                                [](const PointFile&) -> std::optional<Solid> { return std::nullopt; },
                                [&](const auto& shape) -> std::optional<Solid> {
                                  return Solid{shape, snow.orientation};

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "scene/materials.h"
+#include "scene/mesh_solid.h"
 #include "scene/solid.h"
 #include "stages/heightfield_ports.h"
 #include "stages/mpm_ports.h"
@@ -150,6 +151,8 @@ double speed_bound(const scene::Scene& scene) {
     if (const auto* box = std::get_if<scene::Box>(&snow.what)) reach = box->half_size.norm();
     if (const auto* capsule = std::get_if<scene::Capsule>(&snow.what))
       reach = (capsule->end - capsule->start).norm() + capsule->radius;
+    if (const auto* mesh = std::get_if<scene::SolidMesh>(&snow.what))
+      reach = (mesh->solid->bounds().max - mesh->solid->bounds().min).norm();
     fastest = std::max(fastest, snow.velocity.norm() + snow.spin.norm() * reach);
   }
   for (const scene::Body& body : scene.bodies) {

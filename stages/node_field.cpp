@@ -1,8 +1,6 @@
 #include "stages/node_field.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace firn::stages {
 namespace {
@@ -88,35 +86,21 @@ NodeField node_field(std::span<const float> position, std::span<const float> vel
   return field;
 }
 
-NodeRange range_of(const NodeField& field) {
-  constexpr int most = std::numeric_limits<int>::max(), least = std::numeric_limits<int>::min();
-  NodeRange range{{most, most, most}, {least, least, least}};
-  for (const NodeField::Block& block : field.blocks)
-    for (int n = 0; n < NodeField::size; ++n) {
-      if (block.density[static_cast<std::size_t>(n)] <= 0) continue;
-      const std::array<int, 3> own{n % 8, n / 8 % 8, n / 64};
-      for (std::size_t a = 0; a < 3; ++a) {
-        range.first[a] = std::min(range.first[a], block.first[a] + own[a]);
-        range.last[a] = std::max(range.last[a], block.first[a] + own[a]);
-      }
-    }
-  return range;
-}
-
-DenseField dense(const NodeField& field, const NodeRange& range) {
+DenseField dense(const NodeField& field, const std::array<int, 3>& last) {
   std::array<std::size_t, 3> count{};
-  for (std::size_t a = 0; a < 3; ++a) count[a] = static_cast<std::size_t>(std::max(0, range.last[a] - range.first[a] + 1));
+  for (std::size_t a = 0; a < 3; ++a) count[a] = static_cast<std::size_t>(last[a] + 1);
   DenseField result;
   result.density.resize(count[0] * count[1] * count[2]);
   result.velocity.resize(result.density.size() * 3);
   for (const NodeField::Block& block : field.blocks)
     for (int n = 0; n < NodeField::size; ++n) {
       const auto from = static_cast<std::size_t>(n);
-      if (block.density[from] <= 0) continue;
-      const std::size_t x = static_cast<std::size_t>(block.first[0] + n % 8 - range.first[0]),
-                        y = static_cast<std::size_t>(block.first[1] + n / 8 % 8 - range.first[1]),
-                        z = static_cast<std::size_t>(block.first[2] + n / 64 - range.first[2]);
-      const std::size_t to = (z * count[1] + y) * count[0] + x;
+      const std::array<int, 3> node{block.first[0] + n % 8, block.first[1] + n / 8 % 8, block.first[2] + n / 64};
+      bool there = block.density[from] > 0;
+      for (std::size_t a = 0; a < 3; ++a) there = there && node[a] >= 0 && node[a] <= last[a];
+      if (!there) continue;
+      const std::size_t to = (static_cast<std::size_t>(node[2]) * count[1] + static_cast<std::size_t>(node[1])) * count[0] +
+                             static_cast<std::size_t>(node[0]);
       result.density[to] = block.density[from];
       for (std::size_t a = 0; a < 3; ++a) result.velocity[3 * to + a] = block.velocity[from][a];
     }

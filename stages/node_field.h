@@ -31,16 +31,10 @@ struct NodeField {
 NodeField node_field(std::span<const float> position, std::span<const float> velocity, std::span<const float> mass,
                      const Eigen::Vector3d& origin, double cell);
 
-// The lowest and the highest node that has a density; nothing at all gives first > last.
-struct NodeRange {
-  std::array<int, 3> first{}, last{};
-};
-NodeRange range_of(const NodeField& field);
-
-// All nodes of a range, x fastest; 0 where there is no snow.
+// All nodes from (0, 0, 0) to `last`, x fastest; 0 where there is no snow.
 struct DenseField {
   std::vector<float> density, velocity;
 };
-DenseField dense(const NodeField& field, const NodeRange& range);
+DenseField dense(const NodeField& field, const std::array<int, 3>& last);
 
 }  // namespace firn::stages

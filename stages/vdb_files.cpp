@@ -84,11 +84,11 @@ scene::TriangleMesh surface_of(const NodeField& field, double level, int smoothi
   mesh.points.reserve(points.size());
   for (const openvdb::Vec3s& p : points) mesh.points.emplace_back(p.x(), p.y(), p.z());
   mesh.triangles.reserve(quads.size() * 2);
-  // OpenVDB's quads look inwards where values fall outwards.
+  // OpenVDB's quads look to where values are higher, as level sets have it; density is higher within.
   for (const openvdb::Vec4I& q : quads) {
     const std::array<int, 4> c{static_cast<int>(q[0]), static_cast<int>(q[1]), static_cast<int>(q[2]), static_cast<int>(q[3])};
-    mesh.triangles.push_back({c[0], c[1], c[2]});
-    mesh.triangles.push_back({c[0], c[2], c[3]});
+    mesh.triangles.push_back({c[0], c[2], c[1]});
+    mesh.triangles.push_back({c[0], c[3], c[2]});
   }
   return mesh;
 }

@@ -39,14 +39,14 @@ class GridFiles {
 
  private:
   [[nodiscard]] std::string vti(const NodeField& field, double time) const {
-    NodeRange range = range_of(field);
-    if (range.first[0] > range.last[0]) range = {{0, 0, 0}, {0, 0, 0}};
-    const DenseField values = dense(field, range);
+    // The whole grid in every frame: ParaView takes the extent of a series from its first file.
+    const Eigen::Vector3i nodes = problem_->scene.domain->nodes();
+    const std::array<int, 3> last{nodes.x() - 1, nodes.y() - 1, nodes.z() - 1};
+    const DenseField values = dense(field, last);
     vtk::Image image;
     image.origin = {field.origin.x(), field.origin.y(), field.origin.z()};
     image.spacing = {field.cell, field.cell, field.cell};
-    image.first = range.first;
-    image.last = range.last;
+    image.last = last;
     image.point_data = {vtk::array("density", 1, values.density, level_), vtk::array("velocity", 3, values.velocity, level_)};
     return vtk::to_text(image, time);
   }
@@ -65,7 +65,7 @@ graph::StageSpec grid() {
       .doc = "Density and velocity of the particles on the nodes of the grid: export/grid_0000.vdb and so on",
       .equation = "[M 17-20], quadratic kernel, from where the particles are in this frame",
       .ports = {for_host(mpm::position(Access::read)), for_host(mpm::velocity(Access::read)), for_host(mpm::mass(Access::read))},
-      .parameters = {format_parameter({"vdb", "vti"}, "vdb: Blender, Houdini; vti: ParaView, the box around the snow"),
+      .parameters = {format_parameter({"vdb", "vti"}, "vdb: Blender, Houdini; vti: ParaView, all nodes of the grid"),
                      compression_parameter()},
       .work = {graph::HostWork{}}};
 }

@@ -104,6 +104,20 @@ TEST_CASE("a two-dimensional array is an image, its values unchanged") {
   }
 }
 
+TEST_CASE("a file of floats is an image as wide as the cells, or a square") {
+  const TemporaryFolder folder;
+  std::vector<float> values(36);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = 0.5F * static_cast<float>(i);
+  folder.write("map.f32", std::string(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)));
+  const scene::GreyImage wide = scene::read_image((folder / "map.f32").string(), 12, 3);
+  CHECK(wide.width == 12);
+  CHECK(wide.height == 3);
+  CHECK(wide.values[13] == 6.5);
+  const scene::GreyImage square = scene::read_image((folder / "map.f32").string(), 5, 5);
+  CHECK(square.width == 6);
+  CHECK(square.values.back() == 17.5);
+}
+
 TEST_CASE("an image of the cells' own size comes through unchanged, any other is bilinear between centres") {
   const scene::GreyImage image{2, 2, {0, 1, 2, 5}};
   CHECK(scene::resample(image, 2, 2).values == image.values);

@@ -1,0 +1,102 @@
+"""Reads a run's exports with Blender and compares them with the run's NumPy arrays. Blender turns y up into z up."""
+import os
+import sys
+
+import bpy
+import numpy as np
+
+snow, field, pictures = sys.argv[sys.argv.index("--") + 1:][:3]
+
+
+def fresh():
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+
+
+def vertices(objects):
+    points = []
+    for thing in objects:
+        flat = np.empty(len(thing.data.vertices) * 3, np.float32)
+        thing.data.vertices.foreach_get("co", flat)
+        matrix = np.array(thing.matrix_world)
+        points.append(flat.reshape(-1, 3) @ matrix[:3, :3].T + matrix[:3, 3])
+    return np.concatenate(points)
+
+
+def imported(operator, file):
+    before = set(bpy.data.objects)
+    assert operator(filepath=file) == {"FINISHED"}, file
+    bpy.context.view_layer.update()
+    return [thing for thing in bpy.data.objects if thing not in before]
+
+
+def bounds(points):
+    return points.min(0), points.max(0)
+
+
+rows = np.load(os.path.join(snow, "particles_0003.npy"))[:, :3]
+
+fresh()
+points = vertices(imported(bpy.ops.import_mesh.ply, os.path.join(snow, "particles_0003.ply")))
+assert points.shape == rows.shape and np.abs(points - rows).max() < 1e-6
+print(f"Blender: particles as PLY: {len(points)} vertices, largest difference {np.abs(points - rows).max():.1e} m")
+
+surface = imported(bpy.ops.import_mesh.ply, os.path.join(snow, "surface_0003.ply"))
+faces = len(surface[0].data.polygons)
+low, high = bounds(vertices(surface))
+assert np.all(low > rows.min(0) - 0.05) and np.all(high < rows.max(0) + 0.05)
+print(f"Blender: surface as PLY: {faces} faces, {low} to {high}")
+
+objects = imported(bpy.ops.wm.obj_import, os.path.join(snow, "surface_0003.obj"))
+again = vertices(objects)
+turned = np.stack([again[:, 0], again[:, 2], -again[:, 1]], 1)  # back to y up
+assert len(objects[0].data.polygons) == faces
+assert np.abs(bounds(turned)[0] - low).max() < 1e-5 and np.abs(bounds(turned)[1] - high).max() < 1e-5
+print(f"Blender: surface as OBJ: {len(objects[0].data.polygons)} faces, y up became z up")
+
+bodies = imported(bpy.ops.wm.obj_import, os.path.join(snow, "bodies_0003.obj"))
+print(f"Blender: bodies as OBJ: {[thing.name for thing in bodies]}")
+assert bodies
+
+mesh = imported(bpy.ops.import_mesh.ply, os.path.join(field, "heightfield_0019.ply"))
+print(f"Blender: height field as PLY: {len(mesh[0].data.vertices)} vertices, {len(mesh[0].data.polygons)} faces")
+
+volume = imported(bpy.ops.object.volume_import, os.path.join(snow, "grid_0003.vdb"))
+grids = volume[0].data.grids
+assert grids.load(), grids.error_message
+names = {grid.name: grid.data_type for grid in grids}
+assert names == {"density": "FLOAT", "velocity": "VECTOR_FLOAT"}, names
+box = np.array(volume[0].bound_box)
+assert np.all(box.min(0) <= rows.min(0)) and np.all(box.max(0) >= rows.max(0)), (box, bounds(rows))
+assert np.all(box.min(0) > rows.min(0) - 1) and np.all(box.max(0) < rows.max(0) + 1), (box, bounds(rows))
+matrix = np.array(grids["density"].matrix_object)
+print(f"Blender: grid as VDB: {names}, cell {matrix[0, 0]:.4g} m, box {box.min(0)} to {box.max(0)}")
+
+if pictures:
+    fresh()
+    scene = bpy.context.scene
+    surface = imported(bpy.ops.wm.obj_import, os.path.join(field, "heightfield_0019.obj"))
+    material = bpy.data.materials.new("snow")
+    material.use_nodes = True
+    material.node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (0.9, 0.93, 1, 1)
+    surface[0].data.materials.append(material)
+    light = bpy.data.objects.new("sun", bpy.data.lights.new("sun", "SUN"))
+    light.data.energy, light.rotation_euler = 4, (1.0, 0.2, 0.8)
+    scene.collection.objects.link(light)
+    scene.world = bpy.data.worlds.new("sky")
+    scene.world.use_nodes = True
+    scene.world.node_tree.nodes["Background"].inputs[0].default_value = (0.35, 0.5, 0.75, 1)
+    scene.world.node_tree.nodes["Background"].inputs[1].default_value = 0.4
+    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
+    low, high = bounds(vertices(surface))
+    middle, span = 0.5 * (low + high), (high - low).max()
+    import mathutils
+    camera.location = middle + span * np.array([0.25, -0.75, 0.45])
+    camera.rotation_euler = (mathutils.Vector(middle) - camera.location).to_track_quat("-Z", "Y").to_euler()
+    scene.collection.objects.link(camera)
+    scene.camera = camera
+    scene.render.engine = "CYCLES"
+    scene.cycles.samples, scene.cycles.use_denoising = 12, False
+    scene.render.resolution_x, scene.render.resolution_y = 960, 540
+    scene.render.filepath = os.path.join(pictures, "blender_heightfield.png")
+    bpy.ops.render.render(write_still=True)
+print("Blender: all of it reads back")

@@ -1,0 +1,117 @@
+"""Reads a run's exports with ParaView and compares them with the run's NumPy arrays."""
+import os
+import sys
+
+import numpy as np
+from paraview import simple as pv
+from vtkmodules.numpy_interface import dataset_adapter as dsa
+import paraview.servermanager as servermanager
+
+snow, field, pictures = sys.argv[1:4]
+
+
+def opened(name, folder=snow):
+    source = pv.OpenDataFile(os.path.join(folder, name))
+    assert source is not None, name
+    source.UpdatePipeline()
+    return source
+
+
+def data_at(source, time):
+    source.UpdatePipeline(time)
+    return dsa.WrapDataObject(servermanager.Fetch(source))
+
+
+def same(what, found, expected, tolerance=1e-6):
+    found, expected = np.asarray(found, float), np.asarray(expected, float)
+    assert found.shape == expected.shape, (what, found.shape, expected.shape)
+    worst = np.max(np.abs(found - expected) / np.maximum(1, np.abs(expected))) if found.size else 0
+    assert worst <= tolerance, (what, worst)
+    print(f"ParaView: {what}: {found.shape} values agree, largest difference {worst:.1e}")
+
+
+for name in ("particles.vtp.series", "particles.pvd"):
+    source = opened(name)
+    times = list(source.TimestepValues)
+    print(f"ParaView: {name}: times {times}")
+    assert len(times) == 4 and times[0] == 0 and all(abs(t - i / 30) < 2e-4 for i, t in enumerate(times)), times
+    for frame, time in enumerate(times):
+        data = data_at(source, time)
+        rows = np.load(os.path.join(snow, f"particles_{frame:04}.npy"))
+        same(f"{name} frame {frame} position", data.Points, rows[:, :3])
+        same(f"{name} frame {frame} velocity", data.PointData["velocity"], rows[:, 3:])
+        for array in ("J_P", "stress_norm", "material"):
+            same(f"{name} frame {frame} {array}", data.PointData[array],
+                 np.load(os.path.join(snow, f"particles_{frame:04}_{array}.npy")))
+        assert data.GetNumberOfCells() == len(rows)
+
+grid = opened("grid.vti.series")
+assert len(grid.TimestepValues) == 4
+rows = np.load(os.path.join(snow, "particles_0003.npy"))
+data = data_at(grid, grid.TimestepValues[3])
+cell = np.array(data.GetSpacing())
+density = np.asarray(data.PointData["density"])
+snowy = np.flatnonzero(density)
+places = np.array([data.GetPoint(int(n)) for n in snowy])
+low, high = places.min(0), places.max(0)
+assert np.all(low <= rows[:, :3].min(0)) and np.all(low >= rows[:, :3].min(0) - 2 * cell), (low, rows[:, :3].min(0))
+assert np.all(high >= rows[:, :3].max(0)) and np.all(high <= rows[:, :3].max(0) + 2 * cell), (high, rows[:, :3].max(0))
+print(f"ParaView: grid: snow from {low} to {high}, {density.size} nodes, mass {density.sum() * cell.prod():.6g} kg")
+
+surface = opened("surface_0003.ply")
+clean = pv.FeatureEdges(Input=surface, FeatureEdges=0, ManifoldEdges=0, BoundaryEdges=1, NonManifoldEdges=0)
+clean.UpdatePipeline()
+print(f"ParaView: surface: {surface.GetDataInformation().GetNumberOfCells()} faces, "
+      f"{clean.GetDataInformation().GetNumberOfCells()} open edges")
+assert clean.GetDataInformation().GetNumberOfCells() == 0
+
+bodies = opened("bodies.vtp.series", field)
+heights = opened("heightfield.vti.series", field)
+assert len(heights.TimestepValues) == 20
+data = data_at(heights, heights.TimestepValues[-1])
+names = set(heights.PointData.keys())
+assert {"surface", "depth", "ground", "density"} <= names, names
+same("surface = ground + depth", data.PointData["surface"],
+     np.asarray(data.PointData["ground"]) + np.asarray(data.PointData["depth"]))
+mesh = opened("heightfield_0019.ply", field)
+mesh_heights = dsa.WrapDataObject(servermanager.Fetch(mesh)).Points[:, 1]
+same("the mesh's heights", mesh_heights, data.PointData["surface"])
+
+if pictures:
+    def shot(name, camera, target, color=None):
+        view = pv.GetActiveViewOrCreate("RenderView")
+        view.ViewSize = [960, 540]
+        view.UseColorPaletteForBackground = 0
+        view.Background = [0.2, 0.25, 0.32]
+        view.OrientationAxesVisibility = 0
+        view.CameraPosition, view.CameraFocalPoint, view.CameraViewUp = camera, target, [0, 1, 0]
+        pv.Render(view)
+        pv.SaveScreenshot(os.path.join(pictures, name), view)
+        pv.HideAll(view)
+
+    view = pv.GetActiveViewOrCreate("RenderView")
+    particles = opened("particles.vtp.series")
+    view.ViewTime = particles.TimestepValues[-1]
+    display = pv.Show(particles, view)
+    display.SetRepresentationType("Point Gaussian")
+    display.GaussianRadius = 0.008
+    pv.ColorBy(display, ("POINTS", "velocity", "Magnitude"))
+    display.RescaleTransferFunctionToDataRange(True)
+    display.SetScalarBarVisibility(view, True)
+    low, high = np.array(particles.GetDataInformation().GetBounds()).reshape(3, 2).T
+    middle = 0.5 * (low + high)
+    shot("paraview_particles.png", list(middle + [0.6, 0.4, 1.2]), list(middle))
+
+    view.ViewTime = heights.TimestepValues[-1]
+    warp = pv.WarpByScalar(Input=heights, Scalars=["POINTS", "surface"], UseNormal=1, Normal=[0, 1, 0])
+    display = pv.Show(warp, view)
+    display.SetRepresentationType("Surface")
+    pv.ColorBy(display, ("POINTS", "density"))
+    display.RescaleTransferFunctionToDataRange(True)
+    display.SetScalarBarVisibility(view, True)
+    pv.Show(bodies, view)
+    low, high = np.array(heights.GetDataInformation().GetBounds()).reshape(3, 2).T
+    middle = 0.5 * (low + high)
+    span = np.max(high - low)
+    shot("paraview_heightfield.png", list(middle + span * np.array([0.3, 0.5, 0.75])), list(middle))
+print("ParaView: all of it reads back")
