@@ -47,6 +47,7 @@ Port active_groups(Access access, Usage usage = Usage::storage);
 
 // --- rigid bodies ---
 std::vector<Port> bodies(Access access);                                   // shape, pose, motion, friction
+std::vector<Port> body_distances(Access access, Usage usage);              // of bodies that are meshes
 std::vector<Port> key_frames(Access access);                               // of all bodies, one after another
 Port body(const char* name, Access access, Usage usage = Usage::storage);  // one of them
 
