@@ -149,7 +149,7 @@ void fill(const Filling& shape, const Snow& snow, std::uint64_t snow_index, cons
 // `per_cell` darts a cell). The distance is such that about per_cell stay in a cell.
 void scatter(const Filling& shape, const Snow& snow, std::uint64_t snow_index, const Scene& scene, Particles& particles) {
   constexpr std::uint64_t rounds = 24;
-  constexpr double crowding = 0.66;  // places per cube of the distance after so many rounds, measured
+  constexpr double crowding = 0.58;  // places per cube of the distance after so many rounds, measured
   const Domain& domain = *scene.domain;
   const double cell = domain.cell, distance = cell * std::cbrt(crowding / snow.per_cell);
   const CellRange range = cells_touched(shape.bounds, domain);

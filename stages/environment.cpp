@@ -5,6 +5,7 @@
 #include "scene/materials.h"
 #include "scene/mesh_solid.h"
 #include "scene/solid.h"
+#include "stages/body_distance.h"
 #include "stages/heightfield_ports.h"
 #include "stages/mpm_ports.h"
 #include "stages/problem.h"
@@ -205,6 +206,9 @@ graph::Environment environment(const Problem& problem) {
   for (const scene::Body& body : scene.bodies) key_frames += body.path.size();
   result.domains["key_frames"] = count(key_frames);
   result.domains["facets"] = count(facet_count(problem));
+  std::size_t distance_nodes = 0;
+  for (const std::optional<DistanceGrid>& grid : distance_grids(problem)) distance_nodes += grid ? grid->count() : 0;
+  result.domains["body_distances"] = count(distance_nodes);
   const auto image = [](int width, int height) {
     return graph::DomainSize{static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height), width, height};
   };

@@ -169,6 +169,10 @@ Port body(const char* name, Access access, Usage usage) {
       {"body_orientation_before", ElementType::vec4, "1", "orientation a step before"},
       {"body_path", ElementType::ivec2, "1", "first key frame, number of key frames"},
       {"body_color", ElementType::vec3, "1", "colour, sRGB"},
+      {"body_distance_box", ElementType::vec4, "m",
+       "a mesh's grid of distances: its lowest node in the body's own axes, and its cell"},
+      {"body_distance_nodes", ElementType::ivec4, "1",
+       "its nodes along x, y, z, and the first of them in body_distances; 0: no mesh"},
   };
   for (const Facts& facts : table)
     if (std::string_view(name) == facts.name) return port(facts.name, facts.type, "bodies", access, usage, facts.unit, facts.doc);
@@ -179,7 +183,16 @@ std::vector<Port> bodies(Access access, Usage usage) {
   for (const char* name :
        {"body_kind", "body_size", "body_position", "body_orientation", "body_velocity", "body_spin", "body_friction"})
     ports.push_back(body(name, access, usage));
+  for (Port distances : body_distances(access, Usage::sampled)) {
+    distances.optional = true;
+    ports.push_back(distances);
+  }
   return ports;
+}
+std::vector<Port> body_distances(Access access, Usage usage) {
+  return {port("body_distances", ElementType::float1, "body_distances", access, usage, "m",
+               "signed distances from meshes, negative inside, on a grid per mesh; x runs fastest"),
+          body("body_distance_box", access, usage), body("body_distance_nodes", access, usage)};
 }
 
 std::vector<Port> key_frames(Access access) {

@@ -69,6 +69,7 @@ BlockRoom block_room(const std::array<int, 3>& nodes, std::uint64_t particles, s
 
 // --- rigid bodies ---
 std::vector<Port> bodies(Access access, Usage usage = Usage::storage);     // shape, pose, motion, friction
+std::vector<Port> body_distances(Access access, Usage usage);              // of bodies that are meshes
 std::vector<Port> key_frames(Access access);                               // of all bodies, one after another
 Port body(const char* name, Access access, Usage usage = Usage::storage);  // one of them
 

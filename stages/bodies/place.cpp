@@ -1,6 +1,7 @@
 #include "stages/bodies/place.h"
 
 #include "scene/inertia.h"
+#include "stages/body_distance.h"
 #include "stages/heightfield_ports.h"
 #include "stages/mpm_ports.h"
 
@@ -130,6 +131,7 @@ class Placing final : public graph::HostStage {
       for (const Vector3d& corner : own.corners) put(facet_points, corner);
       facet_body.insert(facet_body.end(), own.corners.size() / 3, static_cast<std::int32_t>(b));
     }
+    if (context.bound("body_distances")) write_distances(context);
     const std::pair<const char*, const std::vector<std::int32_t>*> integers[] = {
         {"body_kind", &kind}, {"body_path", &path}, {"facet_body", &facet_body}};
     for (const auto& [port, values] : integers)
@@ -154,6 +156,23 @@ class Placing final : public graph::HostStage {
   }
 
  private:
+  void write_distances(graph::HostContext& context) const {
+    std::vector<float> values, boxes;
+    std::vector<std::int32_t> nodes;
+    const std::vector<std::optional<DistanceGrid>> grids = distance_grids(*problem_);
+    for (std::size_t b = 0; b < grids.size(); ++b) {
+      const DistanceGrid grid = grids[b].value_or(DistanceGrid{});
+      put(boxes, {grid.min.x(), grid.min.y(), grid.min.z(), grid.cell});
+      nodes.insert(nodes.end(), {grid.nodes.x(), grid.nodes.y(), grid.nodes.z(), static_cast<std::int32_t>(values.size())});
+      if (!grids[b]) continue;
+      const std::vector<float> own = distances(in_own_axes(problem_->scene.bodies[b], problem_->meshes[b]), grid);
+      values.insert(values.end(), own.begin(), own.end());
+    }
+    context.write_floats("body_distances", values);
+    context.write_floats("body_distance_box", boxes);
+    context.write_integers("body_distance_nodes", nodes);
+  }
+
   std::shared_ptr<const Problem> problem_;
 };
 
@@ -177,6 +196,7 @@ graph::StageSpec place() {
   for (const char* name : {"body_friction", "body_color", "body_inertia", "body_position_before", "body_orientation_before"})
     add(mpm::body(name, Access::write), true);
   for (const char* name : {"facet_points", "facet_body"}) add(heightfield::port(name, Access::write), true);
+  for (const graph::Port& port : mpm::body_distances(Access::write, Usage::host)) add(port, true);
   return spec;
 }
 

@@ -16,21 +16,11 @@ std::vector<float> floats(const std::vector<scene::Vector3d>& vectors) {
   return values;
 }
 
-// Particles find bodies by their distance to them, which meshes do not tell yet.
-void refuse_meshes(const scene::Scene& scene) {
-  config::Diagnostics diagnostics;
-  for (const scene::Body& body : scene.bodies)
-    if (std::holds_alternative<scene::Mesh>(body.shape))
-      diagnostics.error(body.place, "a mesh cannot be a collider of particles yet; use a plane, sphere, box or capsule");
-  config::throw_if_errors(diagnostics);
-}
-
 class Seeding final : public graph::HostStage {
  public:
   explicit Seeding(std::shared_ptr<const Problem> problem) : problem_(std::move(problem)) {}
 
   void run(graph::HostContext& context) override {
-    refuse_meshes(problem_->scene);
     const scene::Particles& particles = problem_->particles;
     const std::size_t count = particles.position.size();
     context.write_floats("position", floats(particles.position));

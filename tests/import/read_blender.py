@@ -90,13 +90,15 @@ if pictures:
     low, high = bounds(vertices(surface))
     middle, span = 0.5 * (low + high), (high - low).max()
     import mathutils
-    camera.location = middle + span * np.array([0.25, -0.75, 0.45])
+    rim = vertices(surface)  # where the snow is pushed up highest
+    middle = rim[np.argmax(rim[:, 2])]
+    camera.location = middle + 0.25 * span * np.array([0.5, -1.1, 0.7])
     camera.rotation_euler = (mathutils.Vector(middle) - camera.location).to_track_quat("-Z", "Y").to_euler()
     scene.collection.objects.link(camera)
     scene.camera = camera
     scene.render.engine = "CYCLES"
-    scene.cycles.samples, scene.cycles.use_denoising = 12, False
-    scene.render.resolution_x, scene.render.resolution_y = 960, 540
+    scene.cycles.samples, scene.cycles.use_denoising = 24, False
+    scene.render.resolution_x, scene.render.resolution_y = 640, 360
     scene.render.filepath = os.path.join(pictures, "blender_heightfield.png")
     bpy.ops.render.render(write_still=True)
 print("Blender: all of it reads back")

@@ -78,7 +78,7 @@ mesh_heights = dsa.WrapDataObject(servermanager.Fetch(mesh)).Points[:, 1]
 same("the mesh's heights", mesh_heights, data.PointData["surface"])
 
 if pictures:
-    def shot(name, camera, target, color=None):
+    def shot(name, camera, target):
         view = pv.GetActiveViewOrCreate("RenderView")
         view.ViewSize = [960, 540]
         view.UseColorPaletteForBackground = 0
@@ -100,7 +100,7 @@ if pictures:
     display.SetScalarBarVisibility(view, True)
     low, high = np.array(particles.GetDataInformation().GetBounds()).reshape(3, 2).T
     middle = 0.5 * (low + high)
-    shot("paraview_particles.png", list(middle + [0.6, 0.4, 1.2]), list(middle))
+    shot("paraview_particles.png", list(middle + [0.35, 0.22, 0.7]), list(middle))
 
     view.ViewTime = heights.TimestepValues[-1]
     warp = pv.WarpByScalar(Input=heights, Scalars=["POINTS", "surface"], UseNormal=1, Normal=[0, 1, 0])
@@ -110,8 +110,8 @@ if pictures:
     display.RescaleTransferFunctionToDataRange(True)
     display.SetScalarBarVisibility(view, True)
     pv.Show(bodies, view)
-    low, high = np.array(heights.GetDataInformation().GetBounds()).reshape(3, 2).T
-    middle = 0.5 * (low + high)
-    span = np.max(high - low)
-    shot("paraview_heightfield.png", list(middle + span * np.array([0.3, 0.5, 0.75])), list(middle))
+    ball = opened("bodies_0019.vtp", field).GetDataInformation().GetBounds()
+    middle = 0.5 * np.array([ball[0] + ball[1], ball[2] + ball[3], ball[4] + ball[5]])
+    span = ball[1] - ball[0]
+    shot("paraview_heightfield.png", list(middle + span * np.array([1.6, 1.6, 2.6])), list(middle))
 print("ParaView: all of it reads back")
