@@ -52,6 +52,7 @@ class Exporting final : public graph::HostStage {
       files->write(*snapshot, frame, time);
     });
   }
+  void flush() override { writer_->finish(); }
   void finish() override { writer_->finish(); }
 
  private:

@@ -101,7 +101,7 @@ Port stress_max(Access access) {
 
 Port order(Access access, Usage usage) {
   return unrepeatable(port("order", ElementType::uint1, "particles", access, usage, "1",
-              "numbers of the particles, sorted by cell, then by number"));
+                           "numbers of the particles, sorted by cell, then by number"));
 }
 Port optional_order() {
   Port port = order(Access::read);
@@ -113,26 +113,29 @@ Port cell_start(Access access, Usage usage) {
               "place in `order` of every cell's first particle; the next cell of the row gives its end");
 }
 Port active_blocks(Access access) {
-  return unrepeatable(port("active_blocks", ElementType::uint1, "grid_blocks", access, Usage::storage, "1",
-              "blocks of 4 x 4 x 4 nodes that particles reach, x fastest: block (i, j, k) has the nodes from 4 (i, j, k) on"));
+  return unrepeatable(
+      port("active_blocks", ElementType::uint1, "grid_blocks", access, Usage::storage, "1",
+           "blocks of 4 x 4 x 4 nodes that particles reach, x fastest: block (i, j, k) has the nodes from 4 (i, j, k) on"));
 }
 Port particle_cell(Access access) {
-  return unrepeatable(port("particle_cell", ElementType::uint1, "particles", access, Usage::storage, "1", "cell of every particle"));
+  return unrepeatable(
+      port("particle_cell", ElementType::uint1, "particles", access, Usage::storage, "1", "cell of every particle"));
 }
 Port block_cells(Access access, Usage usage) {
   return unrepeatable(port("block_cells", ElementType::uint1, "block_table*65", access, usage, "1",
-              "place in `order` of every cell's first particle, 64 cells a block, and the block's end"));
+                           "place in `order` of every cell's first particle, 64 cells a block, and the block's end"));
 }
 Port block_entry(Access access) {
   return unrepeatable(port("block_entry", ElementType::uint1, "grid_blocks", access, Usage::storage, "1",
-              "entry of the table for every block of active_blocks"));
+                           "entry of the table for every block of active_blocks"));
 }
 Port block_slot(Access access) {
   return unrepeatable(port("block_slot", ElementType::uint1, "block_table", access, Usage::storage, "1", "place in active_blocks"));
 }
 Port block_near(Access access) {
-  return unrepeatable(port("block_near", ElementType::ivec4, "grid_blocks*4", access, Usage::storage, "1",
-              "the eight blocks above as entries of the table (-1: none), the eight below as places in active_blocks"));
+  return unrepeatable(
+      port("block_near", ElementType::ivec4, "grid_blocks*4", access, Usage::storage, "1",
+           "the eight blocks above as entries of the table (-1: none), the eight below as places in active_blocks"));
 }
 BlockRoom block_room(const std::array<int, 3>& nodes, std::uint64_t particles, std::uint64_t asked) {
   std::uint64_t all = 1;
