@@ -292,13 +292,6 @@ TEST_CASE("a camera without direction and a dark sun are errors") {
   check_bad({"sun", "sun: [-0.4, -1, -0.3]", "sun: [0, 0, 0]", "{sun", "must not be zero"});
 }
 
-TEST_CASE("snow from a mesh is refused, not ignored") {
-  const TemporaryFolder folder;
-  folder.write("bunny.obj", "v 0 0 0\n");
-  check_bad({"mesh", "sphere: {center: [0.5, 0.7, 0.51], radius: 0.21}", "mesh: {file: bunny.obj}", "{file", "not supported"},
-            folder / "scene.yaml");
-}
-
 TEST_CASE("points are checked as far as their header tells") {
   const TemporaryFolder folder;
   const std::vector<double> values(8, 0.5);
