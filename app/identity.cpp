@@ -74,14 +74,12 @@ json shaders_json(const graph::Plan& plan) {
 
 std::set<std::string> files_of(const scene::Scene& scene) {
   std::set<std::string> files;
-  const auto of_shape = [&](const auto& shape) {
-    if (const auto* mesh = std::get_if<scene::Mesh>(&shape)) files.insert(mesh->file);
-  };
   for (const scene::Snow& snow : scene.snow) {
-    of_shape(snow.what);
+    if (const auto* mesh = std::get_if<scene::SolidMesh>(&snow.what)) files.insert(mesh->mesh.file);
     if (const auto* points = std::get_if<scene::PointFile>(&snow.what)) files.insert(points->file);
   }
-  for (const scene::Body& body : scene.bodies) of_shape(body.shape);
+  for (const scene::Body& body : scene.bodies)
+    if (const auto* mesh = std::get_if<scene::Mesh>(&body.shape)) files.insert(mesh->file);
   if (scene.field)
     for (const scene::FieldSource* source : {&scene.field->ground, &scene.field->depth, &scene.field->density})
       if (!source->image.empty()) files.insert(source->image);
