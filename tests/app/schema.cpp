@@ -123,6 +123,7 @@ snow:
   - {box: {center: [1, 1, 1], size: [0.5, 0.5, 0.5]}, material: own, orientation: [0, 0, 0, 1]}
   - {capsule: {from: [1, 1, 1], to: [1.5, 1, 1], radius: 0.2}, material: wet}
   - {points: {file: points.npy, mass: 0.1}, material: own}
+  - {mesh: {file: sledge.obj, scale: 0.5, rotate: {axis: [0, 1, 0], degrees: 30}, translate: [1, 1, 1]}, material: wet, sampling: poisson}
 field: {size: [10, 10], cells: [64, 64], origin: [0, 0], material: own, ground: 0, depth: {image: depth.npy, metres: 0.5}, density: 100}
 bodies:
   - {plane: {point: [0, 0, 0], normal: [0, 1, 0]}, name: floor, friction: 0.5, color: [0, 0, 1]}
