@@ -29,7 +29,7 @@ std::shared_ptr<const Problem> make_problem(scene::Scene scene, Image image, std
 // Triangles of all boxes and meshes among the bodies.
 std::size_t facet_count(const Problem& problem);
 
-// Domains: particles, materials, nodes, grid_rows, grid_blocks, block_table, cells, tiles, bodies, key_frames, facets, image, shadow_map.
+// Domains: particles, materials, nodes, grid_rows, grid_blocks, block_table, cells, tiles, bodies, key_frames, facets, body_distances, image, shadow_map.
 // Constants: see environment.cpp.
 graph::Environment environment(const Problem& problem);
 
