@@ -32,12 +32,13 @@ std::string scene_for(const Folder& folder, const std::string& pipeline) {
   return folder.write("scene.yaml", pipeline.starts_with("heightfield") ? small_field : small_scene);
 }
 
-// The hashes of all buffers in a checkpoint, but for lists in no particular order.
+// The hashes of all buffers in a checkpoint, but for lists in no particular order and what is stored by them.
 std::string state_in(const fs::path& checkpoint) {
   std::istringstream lines(read_file(checkpoint / "SHA256SUMS"));
   std::string state;
   for (std::string line; std::getline(lines, line);)
-    if (std::ranges::none_of(std::array{"manifest.json", " active_blocks.", " covered.", " leaving."},
+    if (std::ranges::none_of(std::array{"manifest.json", " active_blocks.", " block_", " particle_cell.", " order.", " grid_",
+                                        " covered.", " leaving.", " waiting.", " woken."},
                              [&](const char* name) { return line.find(name) != std::string::npos; }))
       state += line + "\n";
   return state;
