@@ -27,7 +27,7 @@ void refuse_meshes(const scene::Scene& scene) {
 
 class Seeding final : public graph::HostStage {
  public:
-  explicit Seeding(std::shared_ptr<const Problem> problem) : problem_(std::move(problem)) {}
+  Seeding(std::shared_ptr<const Problem> problem, bool affine) : problem_(std::move(problem)), affine_(affine) {}
 
   void run(graph::HostContext& context) override {
     refuse_meshes(problem_->scene);
@@ -41,6 +41,7 @@ class Seeding final : public graph::HostStage {
     std::vector<float> identity(count * 9, 0.0f);
     for (std::size_t i = 0; i < identity.size(); ++i) identity[i] = i % 9 % 4 == 0 ? 1.0f : 0.0f;
     context.write_floats("elastic", identity);
+    if (affine_) context.write_floats("velocity_gradient", std::vector<float>(count * 9, 0.0f));
     context.write_integers("material", std::vector<std::int32_t>(particles.material.begin(), particles.material.end()));
 
     std::vector<float> elastic, plastic;
@@ -56,6 +57,7 @@ class Seeding final : public graph::HostStage {
 
  private:
   std::shared_ptr<const Problem> problem_;
+  bool affine_;
 };
 
 }  // namespace
@@ -67,12 +69,20 @@ graph::StageSpec seed() {
           .doc = "Fills the scene's snow with particles at rest in themselves (FE = 1, J_P = 1), and lists its materials",
           .equation = "",
           .ports = {position(w, host), velocity(w, host), mass(w, host), volume(w, host), elastic(w, host), plastic_det(w, host),
-                    material(w, host), material_elastic(w, host), material_plastic(w, host)},
+                    material(w, host), material_elastic(w, host), material_plastic(w, host),
+                    when(velocity_gradient(w, host), "affine", "zero")},
+          .parameters = {{.name = "affine",
+                          .kind = graph::ParameterKind::choice,
+                          .initial = std::string("none"),
+                          .choices = {"none", "zero"},
+                          .doc = "zero: particles start without affine part, for mpm.gather_affine; none: not written"}},
           .work = {graph::HostWork{}}};
 }
 
 graph::HostFactory seeding(std::shared_ptr<const Problem> problem) {
-  return [problem = std::move(problem)](const graph::ParameterValues&) { return std::make_unique<Seeding>(problem); };
+  return [problem = std::move(problem)](const graph::ParameterValues& values) {
+    return std::make_unique<Seeding>(problem, std::get<std::string>(values.at("affine")) == "zero");
+  };
 }
 
 }  // namespace firn::stages::mpm
