@@ -26,11 +26,13 @@
 #include "stages/mpm/clear_grid.h"
 #include "stages/mpm/deform.h"
 #include "stages/mpm/deform_stress.h"
+#include "stages/mpm/gather_affine.h"
 #include "stages/mpm/gather_to_grid.h"
 #include "stages/mpm/gather_velocities.h"
 #include "stages/mpm/grid_collide.h"
 #include "stages/mpm/grid_forces.h"
 #include "stages/mpm/grid_to_particles.h"
+#include "stages/mpm/grid_to_particles_affine.h"
 #include "stages/mpm/grid_update.h"
 #include "stages/mpm/initial_density.h"
 #include "stages/mpm/particle_collide.h"
@@ -75,11 +77,13 @@ graph::Registry all_stages(const std::shared_ptr<const Problem>& problem) {
   registry.add(mpm::clear_grid());
   registry.add(mpm::deform());
   registry.add(mpm::deform_stress());
+  registry.add(mpm::gather_affine());
   registry.add(mpm::gather_to_grid());
   registry.add(mpm::gather_velocities());
   registry.add(mpm::grid_collide());
   registry.add(mpm::grid_forces());
   registry.add(mpm::grid_to_particles());
+  registry.add(mpm::grid_to_particles_affine());
   registry.add(mpm::grid_update());
   registry.add(mpm::initial_density());
   registry.add(mpm::particle_collide());

@@ -18,7 +18,7 @@ std::vector<float> floats(const std::vector<scene::Vector3d>& vectors) {
 
 class Seeding final : public graph::HostStage {
  public:
-  explicit Seeding(std::shared_ptr<const Problem> problem) : problem_(std::move(problem)) {}
+  Seeding(std::shared_ptr<const Problem> problem, bool affine) : problem_(std::move(problem)), affine_(affine) {}
 
   void run(graph::HostContext& context) override {
     const scene::Particles& particles = problem_->particles;
@@ -31,6 +31,7 @@ class Seeding final : public graph::HostStage {
     std::vector<float> identity(count * 9, 0.0f);
     for (std::size_t i = 0; i < identity.size(); ++i) identity[i] = i % 9 % 4 == 0 ? 1.0f : 0.0f;
     context.write_floats("elastic", identity);
+    if (affine_) context.write_floats("velocity_gradient", std::vector<float>(count * 9, 0.0f));
     context.write_integers("material", std::vector<std::int32_t>(particles.material.begin(), particles.material.end()));
 
     std::vector<float> elastic, plastic;
@@ -46,6 +47,7 @@ class Seeding final : public graph::HostStage {
 
  private:
   std::shared_ptr<const Problem> problem_;
+  bool affine_;
 };
 
 }  // namespace
@@ -57,12 +59,20 @@ graph::StageSpec seed() {
           .doc = "Fills the scene's snow with particles at rest in themselves (FE = 1, J_P = 1), and lists its materials",
           .equation = "",
           .ports = {position(w, host), velocity(w, host), mass(w, host), volume(w, host), elastic(w, host), plastic_det(w, host),
-                    material(w, host), material_elastic(w, host), material_plastic(w, host)},
+                    material(w, host), material_elastic(w, host), material_plastic(w, host),
+                    when(velocity_gradient(w, host), "affine", "zero")},
+          .parameters = {{.name = "affine",
+                          .kind = graph::ParameterKind::choice,
+                          .initial = std::string("none"),
+                          .choices = {"none", "zero"},
+                          .doc = "zero: particles start without affine part, for mpm.gather_affine; none: not written"}},
           .work = {graph::HostWork{}}};
 }
 
 graph::HostFactory seeding(std::shared_ptr<const Problem> problem) {
-  return [problem = std::move(problem)](const graph::ParameterValues&) { return std::make_unique<Seeding>(problem); };
+  return [problem = std::move(problem)](const graph::ParameterValues& values) {
+    return std::make_unique<Seeding>(problem, std::get<std::string>(values.at("affine")) == "zero");
+  };
 }
 
 }  // namespace firn::stages::mpm

@@ -86,6 +86,6 @@ void run_permutations(const std::string& pipeline, int count) {
 
 TEST_CASE("a shipped pipeline with its steps in any order does the same with derived and with full barriers") {
   const int count = std::getenv("FIRN_LONG") != nullptr ? 1'000 : 8;
-  for (const std::string pipeline : {"mpm_snow", "mpm_thesis", "heightfield_contour", "heightfield_distance"})
+  for (const std::string pipeline : {"mpm_snow", "mpm_thesis", "mpm_apic", "heightfield_contour", "heightfield_distance"})
     run_permutations(pipeline, count);
 }

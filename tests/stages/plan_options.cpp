@@ -74,7 +74,7 @@ std::string first_difference(const Run& one, const Run& other) {
 }  // namespace
 
 TEST_CASE("shared memory leaves the bytes of shipped pipelines as they are") {
-  for (const std::string pipeline : {"mpm_snow", "mpm_thesis", "heightfield_contour", "heightfield_distance"}) {
+  for (const std::string pipeline : {"mpm_snow", "mpm_thesis", "mpm_apic", "heightfield_contour", "heightfield_distance"}) {
     CAPTURE(pipeline);
     const bool particles = pipeline.starts_with("mpm");
     const int steps = particles ? 40 : 120;
