@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 
 #include "app/compare_report.h"
@@ -46,10 +47,10 @@ void write_file(const fs::path& file, const std::string& text) {
 }
 
 constexpr const char* style = R"(
-body { font: 15px/1.45 system-ui, sans-serif; color: #1d2733; max-width: 1180px; margin: 2em auto; padding: 0 1em; }
+body { font: 15px/1.45 system-ui, sans-serif; color: #1d2733; max-width: 1240px; margin: 2em auto; padding: 0 1em; }
 h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 2em; }
 .a { color: #1f5f99; } .b { color: #b36b00; }
-.pictures { display: grid; grid-template-columns: 1fr 1fr; gap: 12px; }
+.pictures { display: grid; grid-template-columns: repeat(auto-fit, minmax(340px, 1fr)); gap: 12px; }
 figure { margin: 0; } figure img { width: 100%; display: block; border-radius: 4px; } figcaption { font-size: 0.9em; color: #566575; }
 table { border-collapse: collapse; width: 100%; font-size: 0.92em; }
 th, td { text-align: left; padding: 3px 8px; border-bottom: 1px solid #e3e8ee; } td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; }
@@ -66,15 +67,20 @@ std::string pictures(const Comparison& comparison, const fs::path& folder) {
   std::string html;
   for (const auto& [side, name] : {std::pair{&comparison.a, "a.png"}, {&comparison.b, "b.png"}})
     if (side->picture) html += figure(folder / name, escaped(side->title()));
-  if (comparison.difference)
+  const bool same = comparison.difference && comparison.picture_rms == 0;
+  if (comparison.difference && !same)
     html += figure(folder / "difference.png", fmt::format("their difference, {:.0f} times as bright; rms {:.2f} of 255",
                                                           comparison.picture_gain, comparison.picture_rms));
-  return html.empty() ? "" : fmt::format("<h2>At the end</h2>\n<div class=\"pictures\">\n{}</div>\n", html);
+  return html.empty() ? ""
+                      : fmt::format("<h2>At the end</h2>\n<div class=\"pictures\">\n{}</div>\n{}", html,
+                                    same ? "<p>The two pictures are the same.</p>\n" : "");
 }
 
 std::string time_table(const Comparison& comparison) {
-  double longest = 1e-12;
-  for (const PassPair& pass : comparison.passes) longest = std::max({longest, pass.a.median, pass.b.median});
+  // Bars are as long as their share of the longest in the phase: setup compiles kernels on some devices.
+  std::map<std::string, double> longest;
+  for (const PassPair& pass : comparison.passes)
+    longest[pass.phase] = std::max({longest[pass.phase], 1e-12, pass.a.median, pass.b.median});
   const auto cell = [](double seconds, std::uint64_t launches) {
     return launches == 0 ? std::string("-") : fmt::format("{:.1f}", 1e6 * seconds);
   };
@@ -87,7 +93,7 @@ std::string time_table(const Comparison& comparison) {
         pass.phase, escaped(pass.stage), escaped(pass.work), cell(pass.a.median, pass.a.launches),
         cell(pass.b.median, pass.b.launches),
         pass.a.median > 0 && pass.b.median > 0 ? fmt::format("{:.2f}", pass.b.median / pass.a.median) : "-",
-        100 * pass.a.median / longest, 100 * pass.b.median / longest);
+        100 * pass.a.median / longest[pass.phase], 100 * pass.b.median / longest[pass.phase]);
   const double a = comparison.a.milliseconds_per_step(), b = comparison.b.milliseconds_per_step();
   return fmt::format(
       "<h2>Times of passes</h2>\n<table><tr><th>phase</th><th>stage</th><th>work</th><th class=\"n a\">A, &micro;s</th><th "
