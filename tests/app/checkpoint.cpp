@@ -78,7 +78,7 @@ std::string frames_of_film(const Folder& folder, const fs::path& film) {
 }  // namespace
 
 TEST_CASE("a run that goes on from a checkpoint leaves what one leaves that was never interrupted", "[app]") {
-  const std::string pipeline = GENERATE("mpm_snow", "mpm_thesis", "heightfield_contour", "heightfield_distance");
+  const std::string pipeline = GENERATE("mpm_snow", "mpm_thesis", "mpm_apic", "heightfield_contour", "heightfield_distance");
   CAPTURE(pipeline);
   const Folder folder;
   const fs::path whole = folder / "whole", halved = folder / "halved";
