@@ -34,7 +34,7 @@ graph::Registry made_up_stages() {
 graph::PipelineSpec pipeline_of(int stages) {
   std::mt19937 random(1);
   const auto below = [&](int limit) { return static_cast<int>(random() % static_cast<unsigned>(limit)); };
-  const int buffers = std::max(4, stages / 4);
+  const int buffers = std::clamp(stages / 4, 4, 1000);  // a pipeline may have 2,000
   const auto buffer = [](int number) { return fmt::format("buffer{}", number); };
   graph::PipelineSpec pipeline;
   pipeline.file = pipeline.name = fmt::format("{} stages", stages);

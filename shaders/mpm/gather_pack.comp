@@ -1,6 +1,6 @@
-// Particles in sorted order, packed for reading: (position in the block, mass, stress yz), (velocity, stress xx), (stress yy, zz, xy, xz).
+// Particles in sorted order, packed for reading: (position in the block, in cells from its lowest one; mass), (velocity, stress xx),
+// (stress yy, zz, xy, xz); stress yz by itself.
 #include "lib/blocks.glsl"
-#include "lib/packed_position.glsl"
 
 void main() {
   uint slot = element_index();
@@ -9,7 +9,8 @@ void main() {
   vec3 x = position_at(particle);
   mat3 s = stress_at(particle);
   ivec3 lowest = 4 * block_of_cell(cell_of(x)) - 2;
-  packed_particles[3u * slot] = uvec4(packed_position(grid_coordinates(x) - vec3(lowest)), floatBitsToUint(vec2(mass_at(particle), s[1][2])));
-  packed_particles[3u * slot + 1u] = floatBitsToUint(vec4(velocity_at(particle), s[0][0]));
-  packed_particles[3u * slot + 2u] = floatBitsToUint(vec4(s[1][1], s[2][2], s[0][1], s[0][2]));
+  packed_particles[3u * slot] = vec4(grid_coordinates(x) - vec3(lowest), mass_at(particle));
+  packed_particles[3u * slot + 1u] = vec4(velocity_at(particle), s[0][0]);
+  packed_particles[3u * slot + 2u] = vec4(s[1][1], s[2][2], s[0][1], s[0][2]);
+  packed_stress[slot] = s[1][2];
 }

@@ -3,7 +3,6 @@
 // another within a block, so there are two runs to read a row. No atomics: the order of the sums is fixed.
 #include "lib/blocks.glsl"
 #include "lib/bspline.glsl"
-#include "lib/packed_position.glsl"
 
 void main() {
   uint slot = group_number();
@@ -36,25 +35,24 @@ void main() {
     vec2 lowest = vec2(cell & 3);
     for (int i = 0; i < all_of_row; ++i) {
       bool in_low = i < count;
-      int p = 3 * (i + (in_low ? first : next));
-      uvec4 where = packed_particles_at(p);
-      vec4 b = uintBitsToFloat(packed_particles_at(p + 1)), c = uintBitsToFloat(packed_particles_at(p + 2));
-      vec2 a = uintBitsToFloat(where.zw);  // mass, stress yz
-      vec3 inside = unpacked_position(where.xy);
+      int p = i + (in_low ? first : next);
+      vec4 a = packed_particles_at(3 * p), b = packed_particles_at(3 * p + 1), c = packed_particles_at(3 * p + 2);
+      float yz_stress = packed_stress_at(p);
+      vec3 inside = a.xyz;
       vec2 y = spline_and_slope(piece_y, inside.y - lowest.x), z = spline_and_slope(piece_z, inside.z - lowest.y);
       float w = y.x * z.x, by_y = y.y * z.x, by_z = y.x * z.y;
       vec4 ux = inside.x + (in_low ? -2.0 : 2.0) - vec4(0.0, 1.0, 2.0, 3.0);
       vec4 wx = spline(ux), slope = spline_slope(ux);
-      vec4 m = (a.x * w) * wx;
+      vec4 m = (a.w * w) * wx;
       slope *= w;
       mass_here += m;
       momentum_x += m * b.x;
       momentum_y += m * b.y;
       momentum_z += m * b.z;
-      // stress * (slope w, wx by_y, wx by_z); rows of the stress: (b.w, c.z, c.w), (c.z, c.x, a.y), (c.w, a.y, c.y)
+      // stress * (slope w, wx by_y, wx by_z); rows of the stress: (b.w, c.z, c.w), (c.z, c.x, yz_stress), (c.w, yz_stress, c.y)
       force_x -= slope * b.w + wx * (c.z * by_y + c.w * by_z);
-      force_y -= slope * c.z + wx * (c.x * by_y + a.y * by_z);
-      force_z -= slope * c.w + wx * (a.y * by_y + c.y * by_z);
+      force_y -= slope * c.z + wx * (c.x * by_y + yz_stress * by_z);
+      force_z -= slope * c.w + wx * (yz_stress * by_y + c.y * by_z);
     }
   }
 

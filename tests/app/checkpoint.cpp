@@ -38,7 +38,7 @@ std::string state_in(const fs::path& checkpoint) {
   std::string state;
   for (std::string line; std::getline(lines, line);)
     if (std::ranges::none_of(std::array{"manifest.json", " active_blocks.", " block_", " particle_cell.", " order.", " grid_",
-                                        " covered.", " leaving.", " waiting.", " woken."},
+                                        " covered.", " active_tiles.", " flatten_tiles.", " leaving.", " waiting.", " woken."},
                              [&](const char* name) { return line.find(name) != std::string::npos; }))
       state += line + "\n";
   return state;

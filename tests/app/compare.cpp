@@ -96,7 +96,8 @@ TEST_CASE("the page holds pictures and numbers in one file", "[app]") {
   const std::string picture = "src=\"data:image/png;base64,";
   std::size_t pictures = 0;
   for (auto at = page.find(picture); at != std::string::npos; at = page.find(picture, at + 1)) ++pictures;
-  CHECK(pictures == 3);
+  const bool same = page.find("The two pictures are the same") != std::string::npos;
+  CHECK(pictures == (same ? 2 : 3));
   CHECK(page.find("http") == std::string::npos);  // nothing is fetched
   CHECK(page.find("heightfield.distribute_contour") != std::string::npos);
   CHECK(page.find("heightfield.distribute_distance") != std::string::npos);

@@ -86,7 +86,8 @@ TEST_CASE("too many particles for a fixed-point sum end with status 4", "[app]")
   const Outcome outcome = run_firn(run_without_pictures("mpm_thesis", file, folder / "out", {"--steps", "1"}));
   INFO(outcome.err);
   CHECK(outcome.status == 4);
-  CHECK(outcome.err.find("mpm.particles_to_grid found a sum or a list that outgrows the room kept for it in step 0") != std::string::npos);
+  CHECK(outcome.err.find("mpm.particles_to_grid found a sum or a list that outgrows the room kept for it in step 0") !=
+        std::string::npos);
   CHECK(run_firn(run_without_pictures("mpm_thesis", file, folder / "out", {"--steps", "1", "--set", "accumulate=float"})).status ==
         0);
 }

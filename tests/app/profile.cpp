@@ -69,12 +69,12 @@ TEST_CASE("bytes of a pass follow from its ports, those of listed blocks from th
   CHECK(particles == std::floor(particles));
   CHECK(advect.at("bytes_read").get<double>() == Approx(2 * 16 * particles));
   // Only part of the 17 x 19 x 21 nodes lies in blocks that particles reach.
-  const json update = pass_of(profile, "mpm/grid_update.comp");
+  const json update = pass_of(profile, "mpm/grid_collide.comp");
   CHECK(update.at("elements").get<std::string>().find("groups of 64, read back once") != std::string::npos);
   for (const json& buffer : update.at("buffers"))
-    if (buffer.at("buffer") == "grid_mass") {
+    if (buffer.at("buffer") == "grid_velocity") {
       CHECK(buffer.at("written").get<double>() > 0);
-      CHECK(buffer.at("written").get<double>() < 4.0 * 17 * 19 * 21);
+      CHECK(buffer.at("written").get<double>() < 16.0 * 17 * 19 * 21);
     }
 }
 
