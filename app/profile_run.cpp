@@ -63,8 +63,7 @@ Walked walked_by(const Plan& plan, const graph::Run& run, std::uint64_t invocati
     if (!graph::writes(access.access) || buffer.count <= most) continue;
     most = buffer.count;
     const std::string domain = graph::base_domain(buffer.domain);
-    const std::uint64_t all = graph::element_count(domain, plan.environment).value_or(buffer.count);
-    walked = {domain, std::min(1.0, static_cast<double>(invocations) / static_cast<double>(std::max<std::uint64_t>(all, 1)))};
+    walked = {domain, std::min(1.0, static_cast<double>(invocations) / static_cast<double>(buffer.count))};
   }
   return walked;
 }

@@ -21,8 +21,8 @@ struct Context {
   Context& operator=(const Context&) = delete;
 
   void make_current();
-  void check();          // throws DriverError, or DeviceError where memory ran out
-  void check_told() {    // the same without asking the driver: what it has told by itself, which costs no call
+  void check();        // throws DriverError, or DeviceError where memory ran out
+  void check_told() {  // the same without asking the driver: what it has told by itself, which costs no call
     if (!errors.empty()) check();
   }
   void forget_errors();  // those already told in another way

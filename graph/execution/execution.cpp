@@ -349,8 +349,7 @@ std::vector<PassTime> Execution::take_times(bool wait) {
   std::vector<PassTime> times;
   std::swap(times, parts_->clock_times);
   if (!parts_->timers) return times;
-  for (const gpu::TimerRing::Sample& sample : parts_->timers->collect(wait))
-    times.push_back(parts_->pass_of(sample));
+  for (const gpu::TimerRing::Sample& sample : parts_->timers->collect(wait)) times.push_back(parts_->pass_of(sample));
   return times;
 }
 
