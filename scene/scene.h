@@ -137,7 +137,7 @@ struct Body {
 
 struct Domain {
   Vector3d min{0, 0, 0}, max{1, 1, 1};
-  double cell = 0.05;  // m
+  double cell = 0.05;                  // m
   std::optional<std::int64_t> blocks;  // of 4 x 4 x 4 nodes that snow may reach at once; none: by the particles
   // Nodes per axis: both ends included. Nodes lie at min + cell (i, j, k).
   [[nodiscard]] Eigen::Vector3i nodes() const;

@@ -31,7 +31,7 @@ struct PassTime {
   int stage = 0;
   int work = 0;
   std::uint64_t step = 0;  // of the clock
-  double start = 0;  // s since the execution was made
+  double start = 0;        // s since the execution was made
   double seconds = 0;
 };
 

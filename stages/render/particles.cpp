@@ -117,7 +117,7 @@ graph::StageSpec particles() {
             own("particle_color", "linear colour of particles; share of the sky that they see"),
             own("particle_shown", "share of its grains that a particle shows: none but the core inside snow", ElementType::float1)},
            masses(),
-         view::optional_shapes()}),
+           view::optional_shapes()}),
       .parameters = parameters(),
       .constants = constants,
       .work = {graph::HostWork{.uses = {{"material_look", write, Usage::host}}},
