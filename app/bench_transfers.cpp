@@ -111,9 +111,11 @@ void bench_transfers(Bench& bench) {
         running.steps = std::clamp(static_cast<int>((bench.small() ? 0.05 : 0.3) / seconds), 1, 500);
         running.run->execution->time_passes(true);
       });
-      if (!reason) all.push_back(std::move(running));
-      if (reason)
-        for (const auto& [part, stages] : running.form.parts) bench.not_possible(name(part), *reason);
+      if (!reason) {
+        all.push_back(std::move(running));
+        continue;
+      }
+      for (const auto& [part, stages] : running.form.parts) bench.not_possible(name(part), *reason);
     }
   for (int run = 0; run < bench.runs(); ++run)
     for (Running& running : all) time_parts(running);
