@@ -12,8 +12,8 @@ namespace {
 struct Edge {
   int low, high;  // corners
   int face;
-  bool forward;  // the face goes from low to high
-  auto operator<=>(const Edge&) const = default;
+  bool forward;                                   // the face goes from low to high
+  auto operator<=>(const Edge&) const = default;  // NOLINT(modernize-use-nullptr): what the compiler makes of it
 };
 
 std::vector<Edge> edges_of(const TriangleMesh& mesh) {

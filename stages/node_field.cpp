@@ -88,7 +88,7 @@ NodeField node_field(std::span<const float> position, std::span<const float> vel
 
 DenseField dense(const NodeField& field, const std::array<int, 3>& last) {
   std::array<std::size_t, 3> count{};
-  for (std::size_t a = 0; a < 3; ++a) count[a] = static_cast<std::size_t>(last[a] + 1);
+  for (std::size_t a = 0; a < 3; ++a) count[a] = static_cast<std::size_t>(last[a]) + 1;
   DenseField result;
   result.density.resize(count[0] * count[1] * count[2]);
   result.velocity.resize(result.density.size() * 3);

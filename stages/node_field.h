@@ -23,7 +23,9 @@ struct NodeField {
   double cell = 1;  // m
   std::vector<Block> blocks;
 
-  [[nodiscard]] static std::size_t index(int x, int y, int z) { return static_cast<std::size_t>((z * edge + y) * edge + x); }
+  [[nodiscard]] static std::size_t index(int x, int y, int z) {  // NOLINTNEXTLINE(bugprone-misplaced-widening-cast): at most 512
+    return static_cast<std::size_t>((z * edge + y) * edge + x);
+  }
 };
 
 // Mass and momentum spread by the quadratic B-spline, as mpm.particles_to_grid does with `kernel: quadratic` [M 17-20].
