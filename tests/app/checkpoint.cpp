@@ -37,11 +37,21 @@ std::string state_in(const fs::path& checkpoint) {
   std::istringstream lines(read_file(checkpoint / "SHA256SUMS"));
   std::string state;
   for (std::string line; std::getline(lines, line);)
-    if (std::ranges::none_of(std::array{"manifest.json", " active_blocks.", " block_", " particle_cell.", " order.", " grid_",
-                                        " covered.", " active_tiles.", " flatten_tiles.", " leaving.", " waiting.", " woken."},
-                             [&](const char* name) { return line.find(name) != std::string::npos; }))
+    if (std::ranges::none_of(
+            std::array{"manifest.json", " active_blocks.", " block_", " particle_cell.", " order.", " packed_", " grid_",
+                       " covered.", " active_tiles.", " flatten_tiles.", " leaving.", " waiting.", " woken."},
+            [&](const char* name) { return line.find(name) != std::string::npos; }))
       state += line + "\n";
   return state;
+}
+
+// The lines of one that the other has not: the buffers that differ.
+std::string differing(const std::string& one, const std::string& other) {
+  std::istringstream lines(one);
+  std::string found;
+  for (std::string line; std::getline(lines, line);)
+    if (other.find(line) == std::string::npos) found += line + "\n";
+  return found;
 }
 
 std::map<std::string, std::string> frames_in(const fs::path& run) {
@@ -158,8 +168,7 @@ TEST_CASE("a run that is killed at any moment goes on to the same end", "[app]")
     }
     INFO(end.err);
     REQUIRE(end.status == 0);
-    const bool same = state_in(out / "checkpoints/step_00000048") == state;
-    CHECK(same);
+    CHECK(differing(state_in(out / "checkpoints/step_00000048"), state) == "");
     CHECK(metrics_in(out) == metrics_in(whole));
     CHECK(names_in(out / "checkpoints").size() == 3);
     fs::remove_all(out);

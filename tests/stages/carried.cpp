@@ -3,8 +3,8 @@
 #include "graph/carried.h"
 
 #include <algorithm>
-#include <set>
 
+#include "app/arrays.h"
 #include "tests/catch.h"
 #include "tests/stages/simulation.h"
 
@@ -58,10 +58,9 @@ Contents after(const app::Loaded& loaded, std::optional<std::byte> poison) {
         execution.write(buffer.name, std::vector<std::byte>(execution.read(buffer.name).size(), *poison));
   go();
   Contents contents;
-  const std::set<std::string> unordered{"active_blocks", "covered", "leaving"};
   for (const int b : kept)
-    if (const std::string& name = loaded.plan.buffers[static_cast<std::size_t>(b)].name; !unordered.contains(name))
-      contents[name] = execution.read(name);
+    if (const graph::PlannedBuffer& buffer = loaded.plan.buffers[static_cast<std::size_t>(b)]; repeats(loaded.plan, buffer))
+      contents[buffer.name] = buffer.texture ? execution.read(buffer.name) : app::read_array(execution, buffer.name).packed;
   contents["image"] = execution.read("image");
   return contents;
 }
