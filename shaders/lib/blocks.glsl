@@ -23,3 +23,10 @@ uint local_cell(ivec3 cell) {
 }
 
 uvec3 local_node(uint local) { return uvec3(local & 3u, local >> 2u & 3u, local >> 4u); }
+
+// Which of `count` blocks a work group has. Software renderers give each thread a run of groups one after another; neighbouring blocks, of much
+// the same weight, go to different threads.
+uint spread(uint group, uint count) {
+  uint run = count / 8u;
+  return group < 8u * run ? 8u * (group % run) + group / run : group;
+}

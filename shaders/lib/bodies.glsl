@@ -62,7 +62,8 @@ vec3 carried_by_body(int b, vec3 x) { return body_velocity_at(b) + cross(body_sp
 
 // The velocity v of a point x after all bodies that it lies in have acted on it, in their order.
 vec3 collided(vec3 v, vec3 x) {
-  for (int b = 0; b < int(bodies_count); ++b) {
+  int b = 0;
+  if (bodies_count > 0u) do {
     vec4 surface = body_surface(b, x);
     if (surface.w > 0.0) continue;
     vec3 n = turned(body_orientation_at(b), surface.xyz);
@@ -74,6 +75,6 @@ vec3 collided(vec3 v, vec3 x) {
     float tangential_speed = length(tangential);
     float hold = -body_friction_at(b) * normal_speed;
     v = carried + (tangential_speed <= hold ? vec3(0.0) : tangential * (1.0 - hold / tangential_speed));
-  }
+  } while (++b < int(bodies_count));
   return v;
 }

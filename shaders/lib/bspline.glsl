@@ -63,7 +63,8 @@ vec4 spline_piece(int offset) {
   return offset == -2   ? vec4(0.0, 0.0, 0.0, 1.0) / 6.0
          : offset == -1 ? vec4(1.0, 3.0, 3.0, -3.0) / 6.0
          : offset == 0  ? vec4(4.0, 0.0, -6.0, 3.0) / 6.0
-                        : vec4(1.0, -3.0, 3.0, -1.0) / 6.0;
+         : offset == 1  ? vec4(1.0, -3.0, 3.0, -1.0) / 6.0
+                        : vec4(0.0);
 #else
   return vec4(offset);
 #endif
@@ -95,3 +96,12 @@ vec4 spline_slope4(float u) {
   return vec4(u - 1.5, 2.0 - 2.0 * u, u - 0.5, 0.0);
 #endif
 }
+
+// The same from the node below the particle's cell on, u in [1, 2]: all that any particle of the cell reaches.
+#if KERNEL_CUBIC
+vec4 spline_of_cell(float u) { return spline4(u); }
+vec4 slope_of_cell(float u) { return spline_slope4(u); }
+#else
+vec4 spline_of_cell(float u) { return spline(u - vec4(0.0, 1.0, 2.0, 3.0)); }
+vec4 slope_of_cell(float u) { return spline_slope(u - vec4(0.0, 1.0, 2.0, 3.0)); }
+#endif

@@ -6,6 +6,7 @@ void main() {
   uint cell = particle_cell[particle] + (particle_cell[particle] >> 6u);
   uint first = block_cells[cell], end = block_cells[cell + 1u];
   uint smaller = 0u;
-  for (uint other = first; other < end; ++other) smaller += unordered[other] < particle ? 1u : 0u;
+  uint other = first;
+  do smaller += unordered[other] < particle ? 1u : 0u; while (++other < end);
   order[first + smaller] = particle;
 }

@@ -57,6 +57,7 @@ graph::StageSpec grid_to_particles() {
                    graph::Dispatch{.kernel = "mpm/grid_to_particles_by_cell.comp",
                                    .over = "",
                                    .indirect = "active_groups",
+                                   .group = 16,
                                    .when = {"nodes", "by_cell"}}}};
 }
 
