@@ -31,7 +31,8 @@ void main() {
     next -= count;
     // (x_p - x_i) / h along y and z is the place in the block plus this.
     vec2 offset = vec2((row & 3) - 2, (row >> 2) - 2) - vec2(cell & 3);
-    for (int i = 0; i < all_of_row; ++i) {
+    int i = 0;
+    if (all_of_row > 0) do {  // the condition at the end: see gather_velocities.comp
       bool in_low = i < count;
       int p = 4 * (i + (in_low ? first : next));
       vec4 a = packed_affine_at(p), b = packed_affine_at(p + 1), c = packed_affine_at(p + 2), d = packed_affine_at(p + 3);
@@ -45,7 +46,7 @@ void main() {
       momentum_x += wx * (same.x + b.w * ux);
       momentum_y += wx * (same.y + c.x * ux);
       momentum_z += wx * (same.z + c.y * ux);
-    }
+    } while (++i < all_of_row);
   }
 
   int index = int(64u * slot + 4u * gl_LocalInvocationID.x);
