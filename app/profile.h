@@ -25,11 +25,13 @@ struct ProfiledPass {
   std::string elements;         // what a launch works on, in words: "over nodes, 1000000", "over 31 groups of 64, read back once"
   std::vector<double> seconds;  // one per launch
   std::vector<Traffic> traffic;
-  bool host = false;  // on the processor: nothing to be said of bytes
+  bool host = false;                      // on the processor: nothing to be said of bytes
+  std::optional<double> operations = {};  // additions and multiplications of a launch; none: its stage does not tell
 
   [[nodiscard]] double total() const;
   [[nodiscard]] double bytes() const;
   [[nodiscard]] double bytes_per_second() const;  // of the median launch
+  [[nodiscard]] std::optional<double> operations_per_second() const;
 };
 
 struct ProfiledLaunch {
@@ -48,9 +50,11 @@ struct Profile {
   std::vector<ProfiledLaunch> launches;
 
   [[nodiscard]] double total() const;  // s, of all launches
-  // "launching": no longer than two launches of an empty kernel; "bytes": 0.6 to 1.1 of the device's bandwidth; "unclear": beyond,
-  // so that caches hold what it works on, or not all of it is touched; "its own work": arithmetic, atomics, waiting, and bytes read
-  // more than once; "the processor".
+  [[nodiscard]] double share_of_copy(const ProfiledPass& pass) const;
+  [[nodiscard]] std::optional<double> share_of_arithmetic(const ProfiledPass& pass) const;
+  // "launching": no longer than two launches of an empty kernel; "bytes": 0.6 to 1.1 of the device's bandwidth; "arithmetic": at
+  // least 0.6 of its arithmetic rate; "unclear": more than all of the bandwidth, so that caches hold what it works on, or not all
+  // of it is touched; "its own work": atomics, waiting, bytes read more than once, invocations without work; "the processor".
   [[nodiscard]] std::string held_back_by(const ProfiledPass& pass) const;
 };
 

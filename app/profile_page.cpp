@@ -74,6 +74,7 @@ std::string as_page(const Profile& profile) {
                       {"total", pass.total()},
                       {"bytes", pass.bytes()},
                       {"rate", pass.bytes_per_second()},
+                      {"maths", profile.share_of_arithmetic(pass).value_or(-1)},
                       {"held", profile.held_back_by(pass)},
                       {"traffic", traffic}});
   }

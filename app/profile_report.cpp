@@ -8,10 +8,6 @@ namespace {
 
 using nlohmann::json;
 
-double share_of_bandwidth(const Profile& profile, const ProfiledPass& pass) {
-  return profile.speed.bandwidth() > 0 ? pass.bytes_per_second() / profile.speed.bandwidth() : 0;
-}
-
 double share_of_time(const Profile& profile, const ProfiledPass& pass) {
   const double total = profile.total();
   return total > 0 ? pass.total() / total : 0;
@@ -21,16 +17,17 @@ double share_of_time(const Profile& profile, const ProfiledPass& pass) {
 
 std::string as_table(const Profile& profile) {
   std::string text = fmt::format("{} on {}, {}\n\n", profile.pipeline, profile.scene, profile.device);
-  text += fmt::format("{:<28} {:<34} {:>8} {:>10} {:>10} {:>7} {:>9} {:>8} {:>7}  {}\n", "stage", "work", "per step", "median us",
-                      "p90 us", "share", "MB", "GB/s", "of copy", "held back by");
+  text += fmt::format("{:<28} {:<34} {:>8} {:>10} {:>10} {:>7} {:>9} {:>8} {:>7} {:>9}  {}\n", "stage", "work", "per step",
+                      "median us", "p90 us", "share", "MB", "GB/s", "of copy", "of maths", "held back by");
   for (const ProfiledPass& pass : profile.passes) {
     const double launches = static_cast<double>(pass.seconds.size()) / static_cast<double>(profile.steps);
     const std::string bytes = pass.host ? fmt::format("{:>9} {:>8} {:>7}", "-", "-", "-")
                                         : fmt::format("{:>9.3f} {:>8.2f} {:>6.1f}%", 1e-6 * pass.bytes(),
-                                                      1e-9 * pass.bytes_per_second(), 100 * share_of_bandwidth(profile, pass));
-    text += fmt::format("{:<28} {:<34} {:>8.2f} {:>10.1f} {:>10.1f} {:>6.1f}% {}  {}\n", pass.stage, pass.work, launches,
+                                                      1e-9 * pass.bytes_per_second(), 100 * profile.share_of_copy(pass));
+    const std::optional<double> arithmetic = profile.share_of_arithmetic(pass);
+    text += fmt::format("{:<28} {:<34} {:>8.2f} {:>10.1f} {:>10.1f} {:>6.1f}% {} {:>9}  {}\n", pass.stage, pass.work, launches,
                         1e6 * median(pass.seconds), 1e6 * quantile(pass.seconds, 0.9), 100 * share_of_time(profile, pass), bytes,
-                        profile.held_back_by(pass));
+                        arithmetic ? fmt::format("{:.1f}%", 100 * *arithmetic) : "-", profile.held_back_by(pass));
   }
   const double steps = static_cast<double>(profile.steps);
   text += fmt::format("\n{} steps: {:.3f} ms a step in passes, {:.3f} ms by the clock on the wall\n", profile.steps,
@@ -40,6 +37,7 @@ std::string as_table(const Profile& profile) {
   text += fmt::format("times by {}\n", profile.clock);
   text += fmt::format(
       "MB: as if every element were read or written once; beyond all of copy, caches hold them or some are left out\n"
+      "of maths: additions and multiplications of the formulas, as stages tell them, by what the device does in a second\n"
       "the device copies {}, multiplies and adds {}, and needs {:.2f} us from launch to launch\n",
       in_words(profile.speed.bandwidth(), "B"), in_words(profile.speed.multiply_add, "FLOP"), 1e6 * profile.speed.launch);
   return text;
@@ -69,8 +67,12 @@ json as_json(const Profile& profile) {
       entry.update({{"bytes_read", read},
                     {"bytes_written", written},
                     {"bytes_per_second", pass.bytes_per_second()},
-                    {"share_of_copy", share_of_bandwidth(profile, pass)},
+                    {"share_of_copy", profile.share_of_copy(pass)},
                     {"buffers", buffers}});
+    if (pass.operations)
+      entry.update({{"operations", *pass.operations},
+                    {"operations_per_second", pass.operations_per_second().value_or(0)},
+                    {"share_of_arithmetic", profile.share_of_arithmetic(pass).value_or(0)}});
     passes.push_back(entry);
   }
   json result = {{"pipeline", profile.pipeline},    {"scene", profile.scene}, {"device", profile.device},

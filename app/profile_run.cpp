@@ -93,6 +93,10 @@ ProfiledPass describe(const execution::Execution& execution, const Planned& plan
     pass.host = true;
     pass.elements = "on the processor";
   }
+  if (const auto* dispatch = std::get_if<graph::Dispatch>(&work))
+    for (const graph::Arithmetic& one : dispatch->arithmetic)
+      pass.operations = pass.operations.value_or(0) +
+                        one.operations * static_cast<double>(graph::element_count(one.per, plan.environment).value_or(0));
   for (const BufferAccess& access : run.accesses) {
     const PlannedBuffer& buffer = plan.buffers[static_cast<std::size_t>(access.buffer)];
     const bool part = !walked.domain.empty() && graph::base_domain(buffer.domain) == walked.domain;
@@ -155,6 +159,20 @@ double ProfiledPass::bytes_per_second() const {
   return middle > 0 && !host ? bytes() / middle : 0;
 }
 
+std::optional<double> ProfiledPass::operations_per_second() const {
+  const double middle = median(seconds);
+  return operations && middle > 0 ? std::optional(*operations / middle) : std::nullopt;
+}
+
+double Profile::share_of_copy(const ProfiledPass& pass) const {
+  return speed.bandwidth() > 0 ? pass.bytes_per_second() / speed.bandwidth() : 0;
+}
+
+std::optional<double> Profile::share_of_arithmetic(const ProfiledPass& pass) const {
+  const std::optional<double> rate = pass.operations_per_second();
+  return rate && speed.multiply_add > 0 ? std::optional(*rate / speed.multiply_add) : std::nullopt;
+}
+
 double Profile::total() const {
   double sum = 0;
   for (const ProfiledPass& pass : passes) sum += pass.total();
@@ -164,9 +182,10 @@ double Profile::total() const {
 std::string Profile::held_back_by(const ProfiledPass& pass) const {
   if (pass.host) return "the processor";
   if (median(pass.seconds) <= 2 * speed.launch) return "launching";
-  const double share = speed.bandwidth() > 0 ? pass.bytes_per_second() / speed.bandwidth() : 0;
-  if (share > 1.1) return "unclear";
-  if (share >= 0.6) return "bytes";
+  const double bytes = share_of_copy(pass), arithmetic = share_of_arithmetic(pass).value_or(0);
+  if (arithmetic >= 0.6 && (arithmetic > bytes || bytes > 1.1)) return "arithmetic";
+  if (bytes > 1.1) return "unclear";
+  if (bytes >= 0.6) return "bytes";
   return "its own work";
 }
 

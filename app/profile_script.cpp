@@ -150,6 +150,7 @@ const columns = [
   ['bytes', pass => pass.host ? -1 : pass.bytes, value => value < 0 ? '\u2013' : size(value), true],
   ['bandwidth', pass => pass.host ? -1 : pass.rate, value => value < 0 ? '\u2013' : rate(value), true],
   ['of copy', pass => pass.host ? -1 : of_copy(pass), value => value < 0 ? '\u2013' : percent(value), true],
+  ['of maths', pass => pass.maths, value => value < 0 ? '\u2013' : percent(value), true],
   ['held back by', pass => pass.held, value => value, false]];
 let sorted_by = -1, falling = true;
 const draw_table = () => {
@@ -179,7 +180,7 @@ const draw_table = () => {
         swatch.style.background = colors[i];
         cell.prepend(swatch);
       }
-      if (name === 'share' || name === 'of copy' && !pass.host) {
+      if (name === 'share' || name === 'of copy' && !pass.host || name === 'of maths' && pass.maths >= 0) {
         const meter = text('span', '', 'meter'), fill = text('i', '');
         fill.style.width = Math.min(100, 100 * value(pass)) + '%';
         meter.append(fill);
@@ -198,7 +199,8 @@ const meanings = {
   'bytes': 'it moves bytes nearly as fast as the device can',
   'unclear': 'more bytes a second than the device can copy: caches hold them, or not every element is touched',
   'launching': 'it takes hardly longer than an empty kernel: there is too little to do',
-  'its own work': 'neither bytes nor launching explain its time: arithmetic, atomics, waiting for memory, or bytes read again',
+  'arithmetic': 'it adds and multiplies nearly as fast as the device can',
+  'its own work': 'neither bytes nor arithmetic nor launching explain its time: atomics, waiting for memory, bytes read again, or invocations without work',
   'the processor': 'it runs on the processor'};
 const draw_details = () => {
   const box = node('details'), pass = data.passes[chosen];

@@ -78,6 +78,11 @@ json work_json(const graph::Work& work) {
       result["over"] = dispatch->over;
     else
       result["indirect"] = dispatch->indirect;
+    for (const graph::Arithmetic& one : dispatch->arithmetic) {
+      json entry = {{"per", one.per}, {"operations", one.operations}};
+      if (!one.when.name.empty()) entry["when"] = {{one.when.name, one.when.value}};
+      result["arithmetic"].push_back(entry);
+    }
   } else if (const auto* draw = std::get_if<graph::Draw>(&work)) {
     result = {{"draw", draw->name},           {"vertex", draw->vertex},     {"fragment", draw->fragment},
               {"instances", draw->instances}, {"vertices", draw->vertices}, {"colors", draw->colors}};

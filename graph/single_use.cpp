@@ -99,6 +99,9 @@ void keep_what_holds(PlannedStage& stage, const Environment& environment) {
   std::erase_if(stage.spec.work, [&](const Work& work) {
     return !holds(std::visit([](const auto& w) { return w.when; }, work), stage, environment);
   });
+  for (Work& work : stage.spec.work)
+    if (auto* dispatch = std::get_if<Dispatch>(&work))
+      std::erase_if(dispatch->arithmetic, [&](const Arithmetic& one) { return !holds(one.when, stage, environment); });
 }
 
 std::pair<std::string, std::optional<Place>> bound_name(const Port& port, const StageUse& use) {

@@ -139,6 +139,7 @@ std::vector<std::string> problems(const StageSpec& spec) {
       if (dispatch->over.empty() == dispatch->indirect.empty())
         found.push_back(fmt::format("kernel {}: needs either a domain or an indirect port", dispatch->kernel));
       if (!dispatch->indirect.empty()) need_port(dispatch->indirect);
+      for (const Arithmetic& one : dispatch->arithmetic) check_condition(one.when, spec, found);
     }
     if (const auto* draw = std::get_if<Draw>(&work)) {
       for (const std::string& color : draw->colors) need_port(color);

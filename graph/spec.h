@@ -62,6 +62,14 @@ struct PortUse {
   std::optional<Usage> usage = {};  // none: the port's
 };
 
+// Additions and multiplications for each element of a domain, as the formulas ask for them: what a kernel works out twice counts
+// once.
+struct Arithmetic {
+  DomainText per;
+  double operations = 0;
+  Condition when = {};
+};
+
 // One compute dispatch. Kernels are files below shaders/.
 struct Dispatch {
   std::string kernel;              // "mpm/particles_to_grid.comp"
@@ -70,6 +78,7 @@ struct Dispatch {
   int group = 64;                  // invocations per work group
   std::vector<PortUse> uses = {};  // empty: every port of the stage
   Condition when = {};
+  std::vector<Arithmetic> arithmetic = {};  // empty: not known
 };
 
 enum class Topology { points, lines, triangles, triangle_strip, patches };

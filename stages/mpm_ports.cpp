@@ -4,6 +4,8 @@
 #include <bit>
 #include <stdexcept>
 
+#include "stages/mpm_arithmetic.h"
+
 namespace firn::stages::mpm {
 namespace {
 
@@ -254,9 +256,10 @@ std::vector<Port> stencil_ports() {
   return {when(particle_cell(Access::read), "nodes", "active"), when(block_slot(Access::read), "nodes", "active"),
           when(block_near(Access::read), "nodes", "active")};
 }
-std::vector<graph::Work> over_particles_and_nodes(const std::string& kernel) {
-  return {graph::Dispatch{.kernel = kernel, .over = "particles*64", .when = {"kernel", "cubic"}},
-          graph::Dispatch{.kernel = kernel, .over = "particles*27", .when = {"kernel", "quadratic"}}};
+std::vector<graph::Work> over_particles_and_nodes(const std::string& kernel, double operations_per_node) {
+  const std::vector<graph::Arithmetic> operations = arithmetic::per_particle(operations_per_node);
+  return {graph::Dispatch{.kernel = kernel, .over = "particles*64", .when = {"kernel", "cubic"}, .arithmetic = operations},
+          graph::Dispatch{.kernel = kernel, .over = "particles*27", .when = {"kernel", "quadratic"}, .arithmetic = operations}};
 }
 
 }  // namespace firn::stages::mpm

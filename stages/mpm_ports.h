@@ -93,6 +93,6 @@ std::vector<Port> node_choice_ports();
 // The ports that finding the nodes about a particle needs besides, by the parameter `nodes` (shaders/lib/stencil_rows.glsl).
 std::vector<Port> stencil_ports();
 // A dispatch with one invocation per particle and node of its stencil, by the parameter `kernel`.
-std::vector<graph::Work> over_particles_and_nodes(const std::string& kernel);
+std::vector<graph::Work> over_particles_and_nodes(const std::string& kernel, double operations_per_node);
 
 }  // namespace firn::stages::mpm

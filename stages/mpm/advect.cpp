@@ -11,7 +11,7 @@ graph::StageSpec advect() {
           .ports = {velocity(Access::read), position(Access::read_write)},
           .constants = {"grid_min", "grid_cell", "grid_nodes"},
           .faults = {graph::Fault::not_a_number, graph::Fault::left_domain},
-          .work = {graph::Dispatch{.kernel = "mpm/advect.comp", .over = "particles"}}};
+          .work = {graph::Dispatch{.kernel = "mpm/advect.comp", .over = "particles", .arithmetic = {{"particles", 6}}}}};
 }
 
 }  // namespace firn::stages::mpm

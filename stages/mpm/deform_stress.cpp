@@ -1,5 +1,6 @@
 #include "stages/mpm/deform_stress.h"
 
+#include "stages/mpm_arithmetic.h"
 #include "stages/mpm_ports.h"
 
 namespace firn::stages::mpm {
@@ -13,7 +14,10 @@ graph::StageSpec deform_stress() {
                     volume(Access::read, Usage::sampled), elastic(Access::read_write), plastic_det(Access::read_write),
                     stress(Access::write)},
           .faults = {graph::Fault::not_a_number},
-          .work = {graph::Dispatch{.kernel = "mpm/deform_stress.comp", .over = "particles"}}};
+          .work = {graph::Dispatch{
+              .kernel = "mpm/deform_stress.comp",
+              .over = "particles",
+              .arithmetic = {{"particles", arithmetic::trial + arithmetic::svd + arithmetic::clamped + arithmetic::stress}}}}};
 }
 
 }  // namespace firn::stages::mpm

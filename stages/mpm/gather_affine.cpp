@@ -1,5 +1,6 @@
 #include "stages/mpm/gather_affine.h"
 
+#include "stages/mpm_arithmetic.h"
 #include "stages/mpm_ports.h"
 
 namespace firn::stages::mpm {
@@ -52,7 +53,8 @@ graph::StageSpec gather_affine() {
                                             {"active_block_count", read},
                                             {"block_near", read},
                                             {"grid_mass", write},
-                                            {"grid_velocity", write}}}}};
+                                            {"grid_velocity", write}},
+                                   .arithmetic = {{"particles", 27 * (arithmetic::weight + 2 + arithmetic::affine_momentum)}}}}};
 }
 
 }  // namespace firn::stages::mpm

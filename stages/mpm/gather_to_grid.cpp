@@ -1,5 +1,6 @@
 #include "stages/mpm/gather_to_grid.h"
 
+#include "stages/mpm_arithmetic.h"
 #include "stages/mpm_ports.h"
 
 namespace firn::stages::mpm {
@@ -19,7 +20,10 @@ graph::StageSpec gather_to_grid() {
                            sums}),
           .parameters = {kernel_parameter()},
           .constants = {"grid_min", "grid_cell", "grid_nodes"},
-          .work = {graph::Dispatch{.kernel = "mpm/gather_to_grid.comp", .over = "nodes"}}};
+          .work = {graph::Dispatch{.kernel = "mpm/gather_to_grid.comp",
+                                   .over = "nodes",
+                                   .arithmetic = arithmetic::per_particle(arithmetic::weight + arithmetic::sums +
+                                                                          arithmetic::weight_gradient + arithmetic::force)}}};
 }
 
 }  // namespace firn::stages::mpm

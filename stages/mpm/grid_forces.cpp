@@ -1,5 +1,6 @@
 #include "stages/mpm/grid_forces.h"
 
+#include "stages/mpm_arithmetic.h"
 #include "stages/mpm_ports.h"
 
 namespace firn::stages::mpm {
@@ -13,7 +14,7 @@ graph::StageSpec grid_forces() {
           .parameters = {kernel_parameter(), accumulate_parameter()},
           .constants = {"grid_min", "grid_cell", "grid_nodes", "crowd"},
           .faults = {graph::Fault::overflow},
-          .work = over_particles_and_nodes("mpm/grid_forces.comp")};
+          .work = over_particles_and_nodes("mpm/grid_forces.comp", arithmetic::weight_gradient + arithmetic::force)};
 }
 
 }  // namespace firn::stages::mpm

@@ -1,5 +1,6 @@
 #include "stages/mpm/grid_to_particles_affine.h"
 
+#include "stages/mpm_arithmetic.h"
 #include "stages/mpm_ports.h"
 
 namespace firn::stages::mpm {
@@ -15,7 +16,10 @@ graph::StageSpec grid_to_particles_affine() {
                     grid_velocity(read, Usage::sampled, block_nodes), velocity(write), velocity_gradient(write)},
           .constants = {"grid_min", "grid_cell", "grid_nodes"},
           .faults = {graph::Fault::not_a_number},
-          .work = {graph::Dispatch{.kernel = "mpm/grid_to_particles_affine.comp", .over = "particles"}}};
+          .work = {graph::Dispatch{
+              .kernel = "mpm/grid_to_particles_affine.comp",
+              .over = "particles",
+              .arithmetic = {{"particles", 27 * (arithmetic::weight + arithmetic::interpolation + 3 + arithmetic::gradient)}}}}};
 }
 
 }  // namespace firn::stages::mpm

@@ -1,5 +1,6 @@
 #include "stages/mpm/grid_update.h"
 
+#include "stages/mpm_arithmetic.h"
 #include "stages/mpm_ports.h"
 
 namespace firn::stages::mpm {
@@ -13,7 +14,8 @@ graph::StageSpec grid_update() {
                             grid_velocity(Access::write)}}),
           .parameters = {accumulate_parameter()},
           .constants = {"grid_min", "grid_cell", "grid_nodes", "mass_scale", "momentum_scale", "crowd", "gravity"},
-          .work = {graph::Dispatch{.kernel = "mpm/grid_update.comp", .over = "nodes"}}};
+          .work = {graph::Dispatch{
+              .kernel = "mpm/grid_update.comp", .over = "nodes", .arithmetic = {{"nodes", arithmetic::node_solve}}}}};
 }
 
 }  // namespace firn::stages::mpm

@@ -1,5 +1,6 @@
 #include "stages/mpm/initial_density.h"
 
+#include "stages/mpm_arithmetic.h"
 #include "stages/mpm_ports.h"
 
 namespace firn::stages::mpm {
@@ -14,7 +15,9 @@ graph::StageSpec initial_density() {
                            {density(Access::write), volume(Access::read_write)}}),
           .parameters = {kernel_parameter(), nodes_parameter()},
           .constants = {"grid_min", "grid_cell", "grid_nodes"},
-          .work = {graph::Dispatch{.kernel = "mpm/initial_density.comp", .over = "particles"}}};
+          .work = {graph::Dispatch{.kernel = "mpm/initial_density.comp",
+                                   .over = "particles",
+                                   .arithmetic = arithmetic::per_particle(arithmetic::weight + 2)}}};
 }
 
 }  // namespace firn::stages::mpm

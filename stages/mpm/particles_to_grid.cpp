@@ -1,5 +1,6 @@
 #include "stages/mpm/particles_to_grid.h"
 
+#include "stages/mpm_arithmetic.h"
 #include "stages/mpm_ports.h"
 
 namespace firn::stages::mpm {
@@ -13,7 +14,7 @@ graph::StageSpec particles_to_grid() {
           .parameters = {kernel_parameter(), accumulate_parameter()},
           .constants = {"grid_min", "grid_cell", "grid_nodes", "mass_scale", "momentum_scale"},
           .faults = {graph::Fault::overflow},
-          .work = over_particles_and_nodes("mpm/particles_to_grid.comp")};
+          .work = over_particles_and_nodes("mpm/particles_to_grid.comp", arithmetic::weight + arithmetic::sums)};
 }
 
 }  // namespace firn::stages::mpm

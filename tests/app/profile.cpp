@@ -1,3 +1,5 @@
+#include "app/profile.h"
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -57,6 +59,39 @@ TEST_CASE("a profile tells time, bytes and bandwidth of every pass", "[app]") {
     CHECK(pass.at("share_of_copy").get<double>() == Approx(pass.at("bytes_per_second").get<double>() / copy));
   }
   CHECK(share == Approx(1));
+}
+
+TEST_CASE("a profile tells the share of the device's arithmetic rate where a stage says what it adds and multiplies", "[app]") {
+  const Folder folder;
+  const json profile = json::parse(profiled(folder, "json").out);
+  const json advect = pass_of(profile, "mpm/advect.comp");
+  const double particles = advect.at("bytes_written").get<double>() / 16;
+  CHECK(advect.at("operations").get<double>() == Approx(6 * particles));  // x + dt v
+  const double rate = advect.at("operations").get<double>() / advect.at("median").get<double>();
+  CHECK(advect.at("operations_per_second").get<double>() == Approx(rate));
+  const double most = profile.at("speed").at("multiply_add_flop_per_second").get<double>();
+  CHECK(advect.at("share_of_arithmetic").get<double>() == Approx(rate / most));
+  CHECK_FALSE(pass_of(profile, "mpm/blocks_find.comp").contains("share_of_arithmetic"));
+}
+
+TEST_CASE("a pass that adds and multiplies nearly as fast as the device is held back by arithmetic", "[app]") {
+  firn::app::Profile profile;
+  profile.speed = {.copy = 1e9, .buffer_copy = 0, .multiply_add = 1e9, .launch = 1e-6};
+  firn::app::ProfiledPass pass;
+  pass.seconds = {1e-3};
+  CHECK(profile.held_back_by(pass) == "its own work");
+  pass.operations = 7e5;
+  CHECK(profile.held_back_by(pass) == "arithmetic");
+  pass.operations = 5e5;
+  CHECK(profile.held_back_by(pass) == "its own work");
+  pass.traffic = {{"position", "read", "storage", 8e5, 0}};
+  CHECK(profile.held_back_by(pass) == "bytes");
+  pass.operations = 9e5;
+  CHECK(profile.held_back_by(pass) == "arithmetic");
+  pass.traffic.front().read = 2e6;
+  CHECK(profile.held_back_by(pass) == "arithmetic");
+  pass.operations = 0;
+  CHECK(profile.held_back_by(pass) == "unclear");
 }
 
 TEST_CASE("bytes of a pass follow from its ports, those of listed blocks from the list", "[app]") {
