@@ -50,15 +50,17 @@ Port port(const char* name, Access access, Usage usage) {
       {"support_counts", uint1, "bodies*4", "1", "number of addends of four sums per body"},
       {"support_sums", uint1, "bodies*8", "1", "four sums per body in two words each"},
       {"step_costs", vec4, "bodies*2", "1", "costs of steps: left, right, down, up; then the diagonals between them"},
-      {"covered", uint1, "cells", "1", "list of cells under bodies"},
-      {"covered_count", uint1, "1", "1", "length of that list"},
+      {"covered_reach", uint1, "bodies*4", "1", "lowest column and row that the body covers, then the highest"},
       {"leaving", uint1, "cells", "1", "list of cells that hand snow on"},
       {"woken", uint1, "cells", "1", "last turn in which something beside the cell became cheaper"},
       {"waiting", uint1, "cells*2", "1", "two lists of such cells, of this turn and the next"},
-      {"higher_left", uint1, "cells", "1", "neighbours that have still to hand the cell something"},
+      {"waiting_count", uint1, "1", "1", "length of the first of them"},
       {"leaving_count", uint1, "1", "1", "length of that list"},
-      {"lower_count", uint1, "cells", "1", "neighbours of strictly lower distance"},
-      {"travelling", vec2, "cells", "kg/m2", "snow that passes the cell on its way out, per area; and its depth in m"},
+      {"ways", uint1, "cells", "1",
+       "neighbours that the cell hands snow on to, one bit each; from bit 8 those that hand it some; from bit 16 how many of these "
+       "have still to do so"},
+      {"travelling", vec2, "cells", "kg/m2",
+       "snow that passes the cell on its way out, per area, and its depth in m; once it has passed, what each receiver got"},
       {"outflow", vec2, "cells", "m, 1",
        "what a cell gives to each of its receivers in this pass; which neighbours those are, one bit each"},
       {"moved_bits", uint1, "1", "1", "largest outflow of a cell, as bits of a float"},
@@ -70,7 +72,7 @@ Port port(const char* name, Access access, Usage usage) {
       {"active_tile_groups", uint1, "3", "1", "size of a dispatch with one group per active tile"},
   };
   // Made as invocations come.
-  constexpr std::string_view lists[] = {"covered", "leaving", "waiting", "woken", "flatten_tiles", "active_tiles"};
+  constexpr std::string_view lists[] = {"leaving", "waiting", "woken", "flatten_tiles", "active_tiles"};
   for (const Facts& facts : table)
     if (std::string_view(name) == facts.name)
       return {.name = facts.name,

@@ -1,17 +1,9 @@
-// What the neighbours of strictly higher distance hand to a cell, in equal parts to each of their lower ones.
-#include "heightfield/lower.glsl"
+#include "heightfield/ways.glsl"
 
-vec2 handed_from(ivec2 from, float own) {
-  if (!in_field(from)) return vec2(0.0);
-  int j = cell_index(from);
-  if (lower_count[j] == 0u || !strictly_lower(own, distance[j])) return vec2(0.0);
-  return travelling[j] / float(lower_count[j]);
-}
-
-vec2 handed_to(ivec2 cell) {
-  float own = distance[cell_index(cell)];
+// What is handed to a cell: by every giver the same as to its other receivers.
+vec2 handed_to(ivec2 cell, uint way) {
   vec2 sum = vec2(0.0);
-#define HANDED(n) sum += handed_from(cell + neighbor_offsets[n], own);
-  FOR_RECEIVERS(HANDED)
+#define HANDED(n) if ((way >> (n + givers_shift) & 1u) != 0u) sum += travelling[cell_index(cell + neighbor_offsets[n])];
+  FOR_NEIGHBORS(HANDED)
   return sum;
 }

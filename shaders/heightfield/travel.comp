@@ -1,14 +1,13 @@
-// From the highest level down, every cell hands on what it has, its own and what came: as soon as all that hand it something have done so.
-// Each cell comes once, in the order of the list, which grows while it is worked on. A single group, so that every turn sees the one before.
+// From the highest level down, every cell hands on what it has, its own and what came, in equal parts: as soon as all that hand it something
+// have done so. Each cell comes once, in the order of the list, which grows while it is worked on. A single group, so that every turn sees the
+// one before.
 #include "heightfield/passed.glsl"
 
 shared uint end_of_list;
 
-void tell(ivec2 to, float own) {
-  if (!in_field(to)) return;
+void tell(ivec2 to) {
   int j = cell_index(to);
-  if (!(distance[j] > 0.0) || !strictly_lower(distance[j], own)) return;
-  if (atomicAdd(higher_left[j], 0xffffffffu) == 1u) leaving[atomicAdd(end_of_list, 1u)] = uint(j);
+  if (atomicAdd(ways[j], 0u - (1u << givers_left_shift)) >> givers_left_shift == 1u) leaving[atomicAdd(end_of_list, 1u)] = uint(j);
 }
 
 void main() {
@@ -19,10 +18,10 @@ void main() {
     for (uint entry = begin + lane; entry < end; entry += gl_WorkGroupSize.x) {
       int i = int(leaving[entry]);
       ivec2 cell = cell_at(uint(i));
-      float own = distance[i];
-      travelling[i] += handed_to(cell);
-#define TELL(n) tell(cell + neighbor_offsets[n], own);
-      FOR_RECEIVERS(TELL)
+      uint own = ways[i];
+      travelling[i] = (travelling[i] + handed_to(cell, own)) / float(max(receivers_of(own), 1u));
+#define TELL(n) if ((own >> n & 1u) != 0u) tell(cell + neighbor_offsets[n]);
+      FOR_NEIGHBORS(TELL)
     }
     memoryBarrierBuffer();
     barrier();

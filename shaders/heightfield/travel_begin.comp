@@ -1,12 +1,16 @@
-// What cells in the overlap have to hand on, to how many, and from how many they get some; a list of those that get none.
-#include "heightfield/lower.glsl"
+// What cells in the overlap have to hand on, to which neighbours, and from which they get some; a list of those that get none. Distances that
+// are equal within a relative 1e-6 count as equal.
+#include "heightfield/ways.glsl"
 #include "lib/own_cell.glsl"
 
-// 1 in x where `to` is lower than a cell of this distance, in y where it is higher and hands on.
-ivec2 compared(ivec2 to, float own) {
-  if (!in_field(to)) return ivec2(0);
+bool strictly_lower(float a, float b) { return a < b * (1.0 - 1.0e-6); }
+
+// The bits of neighbour n.
+uint way(ivec2 to, int n, float own) {
+  if (!in_field(to)) return 0u;
   float other = distance[cell_index(to)];
-  return ivec2(strictly_lower(other, own), strictly_lower(own, other) && other < infinity);
+  if (own < infinity && strictly_lower(other, own)) return 1u << n;
+  return other < infinity && strictly_lower(own, other) ? (1u << n + givers_shift) + (1u << givers_left_shift) : 0u;
 }
 
 void main() {
@@ -14,17 +18,21 @@ void main() {
   if (!own_cell(cell)) return;
   int i = cell_index(cell);
   float own = distance[i];
-  ivec2 lower_and_higher = ivec2(0);
-  if (own > 0.0 && own < infinity) {
-#define COMPARE(n) lower_and_higher += compared(cell + neighbor_offsets[n], own);
-    FOR_RECEIVERS(COMPARE)
-  }
-  lower_count[i] = uint(lower_and_higher.x);
-  higher_left[i] = uint(lower_and_higher.y);
-#if HAS_DISPLACED_HEIGHT
-  travelling[i] = vec2(displaced[i], displaced_height[i]);
+  uint all = 0u;
+#define WAY(n) all += way(cell + neighbor_offsets[n], n, own);
+#if NEIGHBOURS_4
+  WAY(0) WAY(1) WAY(2) WAY(3)
 #else
-  travelling[i] = vec2(displaced[i], 0.0);
+  FOR_NEIGHBORS(WAY)
 #endif
-  if (lower_and_higher.x > 0 && lower_and_higher.y == 0) leaving[atomicAdd(leaving_count[0], 1u)] = uint(i);
+  // Outside, nobody waits for what is handed to the cell.
+  if (!(own > 0.0)) all &= 0xffffu;
+  ways[i] = all;
+#if HAS_DISPLACED_HEIGHT
+  vec2 amount = vec2(displaced[i], displaced_height[i]);
+#else
+  vec2 amount = vec2(displaced[i], 0.0);
+#endif
+  travelling[i] = amount;
+  if (receivers_of(all) > 0u && all >> givers_left_shift == 0u) leaving[atomicAdd(leaving_count[0], 1u)] = uint(i);
 }

@@ -7,18 +7,13 @@ namespace firn::stages::heightfield {
 
 graph::StageSpec distribute_distance() {
   using enum Access;
-  const std::vector<graph::PortUse> amounts = {{"distance", read}, {"displaced", read}, {"displaced_height", read}};
-  const auto with = [&](std::vector<graph::PortUse> uses) {
-    uses.insert(uses.end(), amounts.begin(), amounts.end());
-    return uses;
-  };
   return {
       .name = "heightfield.distribute_distance",
       .doc = "Sends what bodies displace down the distances until it is out from under them",
       .equation = "[H 3.8]",
       .ports = mpm::joined({ports({"distance", "displaced"}, read),
                             {optional("displaced_height", read), port("arrived", write), optional("arrived_height", write)},
-                            ports({"lower_count", "higher_left", "travelling", "leaving", "leaving_count"}, read_write),
+                            ports({"ways", "travelling", "leaving", "leaving_count"}, read_write),
                             cell_choice_ports()}),
       .parameters = {{.name = "neighbours",
                       .kind = graph::ParameterKind::choice,
@@ -27,22 +22,20 @@ graph::StageSpec distribute_distance() {
                       .doc = "to which of its neighbours a cell may hand snow on: 4 share an edge with it, 8 also a corner"},
                      cells_parameter()},
       .work = sequence(
-          {over_cells("heightfield/travel_begin.comp", with({{"lower_count", write},
-                                                             {"higher_left", write},
-                                                             {"travelling", write},
-                                                             {"leaving", write},
-                                                             {"leaving_count", accumulate}})),
-           {graph::Dispatch{.kernel = "heightfield/travel.comp",
-                            .over = "64",
-                            .group = 64,
-                            .uses = with({{"lower_count", read},
-                                          {"travelling", read_write},
-                                          {"higher_left", read_write},
-                                          {"leaving", read_write},
-                                          {"leaving_count", read_write}})}},
-           over_cells(
-               "heightfield/distribute_distance.comp",
-               {{"distance", read}, {"lower_count", read}, {"travelling", read}, {"arrived", write}, {"arrived_height", write}})})};
+          {over_cells("heightfield/travel_begin.comp", {{"distance", read},
+                                                        {"displaced", read},
+                                                        {"displaced_height", read},
+                                                        {"ways", write},
+                                                        {"travelling", write},
+                                                        {"leaving", write},
+                                                        {"leaving_count", accumulate}}),
+           {graph::Dispatch{
+               .kernel = "heightfield/travel.comp",
+               .over = "64",
+               .group = 64,
+               .uses = {{"ways", read_write}, {"travelling", read_write}, {"leaving", read_write}, {"leaving_count", read_write}}}},
+           over_cells("heightfield/distribute_distance.comp",
+                      {{"distance", read}, {"ways", read}, {"travelling", read}, {"arrived", write}, {"arrived_height", write}})})};
 }
 
 }  // namespace firn::stages::heightfield

@@ -39,7 +39,7 @@ std::string state_in(const fs::path& checkpoint) {
   for (std::string line; std::getline(lines, line);)
     if (std::ranges::none_of(
             std::array{"manifest.json", " active_blocks.", " block_", " particle_cell.", " order.", " packed_", " grid_",
-                       " covered.", " active_tiles.", " flatten_tiles.", " leaving.", " waiting.", " woken."},
+                       " active_tiles.", " flatten_tiles.", " leaving.", " waiting.", " woken."},
             [&](const char* name) { return line.find(name) != std::string::npos; }))
       state += line + "\n";
   return state;
