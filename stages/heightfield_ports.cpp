@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "stages/mpm_ports.h"
+
 namespace firn::stages::heightfield {
 
 Port port(const char* name, Access access, Usage usage) {
@@ -65,9 +67,11 @@ Port port(const char* name, Access access, Usage usage) {
        "what a cell gives to each of its receivers in this pass; which neighbours those are, one bit each"},
       {"moved_bits", uint1, "1", "1", "largest outflow of a cell, as bits of a float"},
       {"changed_tiles", uint1, "tiles", "1", "1 where snow or an underside has changed since the last relaxation"},
+      {"flatten_count", uint1, "1", "1", "length of the list of tiles for relaxation"},
       {"flatten_tiles", uint1, "tiles", "1", "tiles of 16 x 16 cells that this pass of relaxation works on"},
       {"flatten_groups", uint1, "3", "1", "size of a dispatch with one group per tile of that list"},
       {"tile_stamp", uint1, "tiles", "1", "2 + the last step in which a body was over the tile"},
+      {"active_tile_count", uint1, "1", "1", "length of the list of active tiles"},
       {"active_tiles", uint1, "tiles", "1", "tiles of 16 x 16 cells that bodies are over, or were in the last step"},
       {"active_tile_groups", uint1, "3", "1", "size of a dispatch with one group per active tile"},
   };
@@ -88,6 +92,12 @@ Port port(const char* name, Access access, Usage usage) {
 
 Port optional(const char* name, Access access) {
   Port result = port(name, access);
+  result.optional = true;
+  return result;
+}
+
+Port optional_body(const char* name, Access access) {
+  Port result = mpm::body(name, access);
   result.optional = true;
   return result;
 }

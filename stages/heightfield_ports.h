@@ -16,6 +16,8 @@ using graph::Usage;
 Port port(const char* name, Access access, Usage usage = Usage::storage);
 // The same, which may stay unbound.
 Port optional(const char* name, Access access);
+// A rigid body's, which may stay unbound.
+Port optional_body(const char* name, Access access);
 
 // Ports of several names with the same access.
 std::vector<Port> ports(std::initializer_list<const char*> names, Access access);

@@ -1,5 +1,5 @@
 // One group per body: stamps the tiles that its bounding box covers, now or where it was before, and one cell around.
-#include "lib/cells.glsl"
+#include "lib/cell_tiles.glsl"
 #include "lib/body_pose.glsl"
 
 // Half the extent along the world's axes of a body about its origin.
@@ -17,12 +17,15 @@ void main() {
   Pose now = pose(body), before = pose_before(body);
   vec3 reach_now = half_extent(body, now.turn), reach_before = half_extent(body, before.turn);
   vec2 low = min(now.place.xz - reach_now.xz, before.place.xz - reach_before.xz), high = max(now.place.xz + reach_now.xz, before.place.xz + reach_before.xz);
-  vec2 most = vec2(cells_width, cells_height);
+  vec2 most = vec2(tile_edge * ivec2(tiles_width, tiles_height));
   // Clamped before they become whole numbers, which far-away bodies would overflow.
   vec2 from = (low - field_min.xz) / field_cell - 2.0, to = (high - field_min.xz) / field_cell + 2.0;
   if (any(lessThan(to, vec2(0.0))) || any(greaterThan(from, most)) || any(isnan(from)) || any(isnan(to))) return;
   ivec2 first = ivec2(clamp(from, vec2(0.0), most - 1.0)) / tile_edge, last = ivec2(clamp(to, vec2(0.0), most - 1.0)) / tile_edge;
   ivec2 extent = last - first + 1;
-  for (int t = int(gl_LocalInvocationID.x); t < extent.x * extent.y; t += int(gl_WorkGroupSize.x))
-    tile_stamp[(first.y + t / extent.x) * tile_counts().x + first.x + t % extent.x] = step + 2u;
+  int t = int(gl_LocalInvocationID.x);
+  if (t < extent.x * extent.y) do {
+    tile_stamp[(first.y + t / extent.x) * tiles_width + first.x + t % extent.x] = step + 2u;
+    t += int(gl_WorkGroupSize.x);
+  } while (t < extent.x * extent.y);
 }

@@ -19,14 +19,15 @@ void main() {
     int rows = along_x ? high.x - low.x + 1 : high.y - low.y + 1, length_ = along_x ? high.y - low.y + 1 : high.x - low.x + 1;
     ivec2 first = ascending ? low : along_x ? ivec2(high.x, low.y) : ivec2(low.x, high.y);
     for (int row = 0; row < rows; ++row) {
-      for (int place = int(gl_LocalInvocationID.x); place < length_; place += int(gl_WorkGroupSize.x)) {
+      int place = int(gl_LocalInvocationID.x);
+      if (place < length_) do {
         ivec2 cell = first - row * out_ + place * across;
         int i = cell_index(cell);
         float before = distance[i];
-        if (!(before > 0.0) || owner[i] != body) continue;
         float best = min(way_by(cell + out_, straight[side]), min(way_by(cell + out_ - across, diagonals.x), way_by(cell + out_ + across, diagonals.y)));
-        if (best < before) distance[i] = best;
-      }
+        if (best < before && owner[i] == body) distance[i] = best;
+        place += int(gl_WorkGroupSize.x);
+      } while (place < length_);
       memoryBarrierBuffer();
       barrier();
     }

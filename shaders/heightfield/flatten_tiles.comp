@@ -1,25 +1,30 @@
-// Tiles that this pass works on: those where something changed, and their neighbours, which it may reach. A single group.
-#include "lib/cells.glsl"
+// Tiles that this pass works on: those where something changed, which are listed, and their neighbours, which it may reach. A single group.
+#define TILE_GROUPS flatten_groups
+#include "heightfield/flatten_list.glsl"
 
-bool listed(uint tile) {
-  ivec2 counts = tile_counts(), at = ivec2(int(tile) % counts.x, int(tile) / counts.x);
-  ivec2 low = max(at - 1, ivec2(0)), high = min(at + 1, counts - 1);
-  for (int z = low.y; z <= high.y; ++z)
-    for (int x = low.x; x <= high.x; ++x)
-      if (changed_tiles[z * counts.x + x] != 0u) return true;
-  return false;
+void list_neighbor(ivec2 tile) {
+  ivec2 counts = tile_counts();
+  if (any(lessThan(tile, ivec2(0))) || any(greaterThanEqual(tile, counts))) return;
+  uint index = uint(tile.y * counts.x + tile.x);
+  if (atomicExchange(changed_tiles[index], tile_listed) == 0u) list_tile(index);
 }
 
-#define TILE_LIST flatten_tiles
-#define TILE_GROUPS flatten_groups
-#include "lib/tile_list.glsl"
-
 void main() {
-  list_tiles();
+  uint lane = gl_LocalInvocationID.x, changed = min(flatten_count[0], tiles_count);
   barrier();
-  for (uint tile = gl_LocalInvocationID.x; tile < tiles_count; tile += gl_WorkGroupSize.x) changed_tiles[tile] = 0u;
-  if (gl_LocalInvocationID.x == 0u) {
-    moved_bits[0] = 0u;
-    moved[0] = 0.0;
-  }
+  uint entry = lane;
+  if (entry < changed) do {
+    int tile = int(flatten_tiles[entry]), width = tile_counts().x;
+#define LIST(n) list_neighbor(ivec2(tile % width, tile / width) + neighbor_offsets[n]);
+    FOR_NEIGHBORS(LIST)
+    entry += gl_WorkGroupSize.x;
+  } while (entry < changed);
+  memoryBarrierBuffer();
+  barrier();
+  uint all = min(flatten_count[0], tiles_count);
+  for (entry = lane; entry < all; entry += gl_WorkGroupSize.x) changed_tiles[flatten_tiles[entry]] = 0u;
+  size_tile_groups();
+  if (lane > 0u) return;
+  moved_bits[0] = 0u;
+  moved[0] = 0.0;
 }

@@ -15,14 +15,16 @@ void main() {
   if (lane == 0u) end_of_list = end;
   barrier();
   while (begin < end) {
-    for (uint entry = begin + lane; entry < end; entry += gl_WorkGroupSize.x) {
+    uint entry = begin + lane;
+    if (entry < end) do {
       int i = int(leaving[entry]);
       ivec2 cell = cell_at(uint(i));
       uint own = ways[i];
       travelling[i] = (travelling[i] + handed_to(cell, own)) / float(max(receivers_of(own), 1u));
 #define TELL(n) if ((own >> n & 1u) != 0u) tell(cell + neighbor_offsets[n]);
       FOR_NEIGHBORS(TELL)
-    }
+      entry += gl_WorkGroupSize.x;
+    } while (entry < end);
     memoryBarrierBuffer();
     barrier();
     begin = end;

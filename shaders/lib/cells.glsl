@@ -1,7 +1,6 @@
 // Cells of the height field: (column along x, row along z).
+#include "lib/cell_tiles.glsl"
 
-const int tile_edge = 16;
-const uint no_tile = 0xffffffffu;
 const float infinity = uintBitsToFloat(0x7f800000u);
 
 // left, right, down, up (-x, +x, -z, +z), then the diagonals
@@ -15,7 +14,6 @@ const int opposite_neighbor[8] = int[8](1, 0, 3, 2, 7, 6, 5, 4);
 int cell_index(ivec2 cell) { return cell.y * cells_width + cell.x; }
 ivec2 cell_at(uint index) { return ivec2(int(index) % cells_width, int(index) / cells_width); }
 bool in_field(ivec2 cell) { return all(greaterThanEqual(cell, ivec2(0))) && cell.x < cells_width && cell.y < cells_height; }
-
 
 ivec2 tile_counts() { return (ivec2(cells_width, cells_height) + tile_edge - 1) / tile_edge; }
 uint tile_of(ivec2 cell) {

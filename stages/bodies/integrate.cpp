@@ -4,15 +4,6 @@
 #include "stages/mpm_ports.h"
 
 namespace firn::stages::bodies {
-namespace {
-
-graph::Port optional_body(const char* name, graph::Access access) {
-  graph::Port port = mpm::body(name, access);
-  port.optional = true;
-  return port;
-}
-
-}  // namespace
 
 graph::StageSpec integrate() {
   using enum graph::Access;
@@ -21,10 +12,11 @@ graph::StageSpec integrate() {
     ports.push_back(mpm::body(name, read_write));
   for (const char* name : {"body_mass", "body_path"}) ports.push_back(mpm::body(name, read));
   for (const graph::Port& port : mpm::key_frames(read)) ports.push_back(port);
-  ports.push_back(optional_body("body_inertia", read));
+  ports.push_back(heightfield::optional_body("body_inertia", read));
   for (const char* name : {"resistance", "contact_point", "support", "support_point"})
     ports.push_back(heightfield::optional(name, read));
-  for (const char* name : {"body_position_before", "body_orientation_before"}) ports.push_back(optional_body(name, write));
+  for (const char* name : {"body_position_before", "body_orientation_before"})
+    ports.push_back(heightfield::optional_body(name, write));
   return {
       .name = "bodies.integrate",
       .doc =

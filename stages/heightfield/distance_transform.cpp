@@ -25,8 +25,8 @@ graph::StageSpec distance_transform() {
            over_cells("heightfield/distance_begin.comp",
                       {{"overlap", read}, {"owner", read}, {"distance", write}, {"woken", write}, {"covered_reach", accumulate}}),
            {graph::Dispatch{.kernel = "heightfield/distance_sweep.comp",
-                            .over = "bodies*64",
-                            .group = 64,
+                            .over = "bodies*32",
+                            .group = 32,
                             .uses = {{"owner", read}, {"step_costs", read}, {"covered_reach", read}, {"distance", read_write}}}},
            over_cells(
                "heightfield/distance_check.comp",

@@ -31,8 +31,8 @@ graph::StageSpec distribute_distance() {
                                                         {"leaving_count", accumulate}}),
            {graph::Dispatch{
                .kernel = "heightfield/travel.comp",
-               .over = "64",
-               .group = 64,
+               .over = "32",
+               .group = 32,
                .uses = {{"ways", read_write}, {"travelling", read_write}, {"leaving", read_write}, {"leaving_count", read_write}}}},
            over_cells("heightfield/distribute_distance.comp",
                       {{"distance", read}, {"ways", read}, {"travelling", read}, {"arrived", write}, {"arrived_height", write}})})};

@@ -4,15 +4,6 @@
 #include "stages/mpm_ports.h"
 
 namespace firn::stages::heightfield {
-namespace {
-
-Port before(const char* name) {
-  Port result = mpm::body(name, Access::read);
-  result.optional = true;
-  return result;
-}
-
-}  // namespace
 
 graph::StageSpec underside() {
   using enum Access;
@@ -32,7 +23,8 @@ graph::StageSpec underside() {
           .equation = "[H 4.5]",
           .ports = mpm::joined(
               {{mpm::body("body_kind", read), mpm::body("body_size", read), mpm::body("body_position", read),
-                mpm::body("body_orientation", read), before("body_position_before"), before("body_orientation_before")},
+                mpm::body("body_orientation", read), optional_body("body_position_before", read),
+                optional_body("body_orientation_before", read)},
                ports({"facet_points", "facet_body"}, read),
                {port("underside", read_write), port("owner", read_write), port("underside_map", write, graph::Usage::framebuffer),
                 port("underside_depth", write, graph::Usage::framebuffer), optional("changed_tiles", read_write)},
