@@ -7,15 +7,19 @@ namespace {
 
 int block_of(int node) { return node >= 0 ? node / NodeField::edge : (node + 1) / NodeField::edge - 1; }
 
+std::uint64_t key_of(const std::array<int, 3>& block) {
+  constexpr std::uint64_t bias = 1 << 20, mask = (1 << 21) - 1;
+  std::uint64_t key = 0;
+  for (const int part : block) key = key << 21 | ((static_cast<std::uint64_t>(part) + bias) & mask);
+  return key;
+}
+
 class Blocks {
  public:
   explicit Blocks(NodeField& field) : field_(field) {}
   NodeField::Block& at(const std::array<int, 3>& block) {
     if (block == last_block_ && !field_.blocks.empty()) return field_.blocks[last_];
-    constexpr std::uint64_t bias = 1 << 20, mask = (1 << 21) - 1;
-    std::uint64_t key = 0;
-    for (const int part : block) key = key << 21 | ((static_cast<std::uint64_t>(part) + bias) & mask);
-    const auto [found, fresh] = index_.try_emplace(key, field_.blocks.size());
+    const auto [found, fresh] = index_.try_emplace(key_of(block), field_.blocks.size());
     if (fresh) {
       NodeField::Block& made = field_.blocks.emplace_back();
       for (std::size_t axis = 0; axis < 3; ++axis) made.first[axis] = block[axis] * NodeField::edge;
@@ -84,6 +88,44 @@ NodeField node_field(std::span<const float> position, std::span<const float> vel
       block.density[n] /= volume;
     }
   return field;
+}
+
+std::vector<std::array<float, 3>> velocity_at(const NodeField& field, std::span<const Eigen::Vector3d> places) {
+  std::unordered_map<std::uint64_t, const NodeField::Block*> index;
+  Eigen::Vector4d whole = Eigen::Vector4d::Zero();  // sum of density times velocity, and of density
+  const auto weighed = [](const NodeField::Block& block, std::size_t n) {
+    const std::array<float, 3>& v = block.velocity[n];
+    return Eigen::Vector4d(Eigen::Vector4f(v[0], v[1], v[2], 1).cast<double>() * double(block.density[n]));
+  };
+  for (const NodeField::Block& block : field.blocks) {
+    index[key_of({block_of(block.first[0]), block_of(block.first[1]), block_of(block.first[2])})] = &block;
+    for (std::size_t n = 0; n < NodeField::size; ++n) whole += weighed(block, n);
+  }
+  std::vector<std::array<float, 3>> result;
+  result.reserve(places.size());
+  for (const Eigen::Vector3d& place : places) {
+    const Eigen::Vector3d x = (place - field.origin) / field.cell;
+    const Eigen::Vector3d low = x.array().floor(), share = x - low;
+    Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+    for (int corner = 0; corner < 8; ++corner) {
+      std::array<int, 3> node{};
+      double weight = 1;
+      for (int a = 0; a < 3; ++a) {
+        const bool high = (corner >> a & 1) != 0;
+        node[static_cast<std::size_t>(a)] = static_cast<int>(low[a]) + (high ? 1 : 0);
+        weight *= high ? share[a] : 1 - share[a];
+      }
+      const auto found = index.find(key_of({block_of(node[0]), block_of(node[1]), block_of(node[2])}));
+      if (found == index.end()) continue;
+      const NodeField::Block& block = *found->second;
+      sum +=
+          weight * weighed(block, NodeField::index(node[0] - block.first[0], node[1] - block.first[1], node[2] - block.first[2]));
+    }
+    const Eigen::Vector4d& from = sum[3] > 0 ? sum : whole;
+    const Eigen::Vector3f mean = (from.head<3>() / (from[3] > 0 ? from[3] : 1)).cast<float>();
+    result.push_back({mean.x(), mean.y(), mean.z()});
+  }
+  return result;
 }
 
 DenseField dense(const NodeField& field, const std::array<int, 3>& last) {

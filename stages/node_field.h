@@ -33,6 +33,10 @@ struct NodeField {
 NodeField node_field(std::span<const float> position, std::span<const float> velocity, std::span<const float> mass,
                      const Eigen::Vector3d& origin, double cell);
 
+// The velocity at places, three floats each: the mean over the eight nodes about it by their density and nearness, and where there
+// is no snow about, over the whole field.
+std::vector<std::array<float, 3>> velocity_at(const NodeField& field, std::span<const Eigen::Vector3d> places);
+
 // All nodes from (0, 0, 0) to `last`, x fastest; 0 where there is no snow.
 struct DenseField {
   std::vector<float> density, velocity;

@@ -45,6 +45,7 @@
 #include "stages/render/heightfield.h"
 #include "stages/render/particles.h"
 #include "stages/render/shadow_map.h"
+#include "stages/render/surface.h"
 
 namespace firn::stages {
 
@@ -96,6 +97,7 @@ graph::Registry all_stages(const std::shared_ptr<const Problem>& problem) {
   registry.add(render::heightfield());
   registry.add(render::particles(), render::coloring(problem));
   registry.add(render::shadow_map());
+  registry.add(render::surface(), render::meshing(problem));
   return registry;
 }
 

@@ -2,6 +2,7 @@
 
 #include "stages/mesh_files.h"
 #include "stages/mpm_ports.h"
+#include "stages/snow_surface.h"
 #include "stages/vdb_files.h"
 
 namespace firn::stages::io {
@@ -19,21 +20,17 @@ class SurfaceFiles {
   SurfaceFiles(std::shared_ptr<const Problem> problem, const graph::ParameterValues& parameters)
       : problem_(std::move(problem)),
         format_(choice(parameters, "format")),
-        cell_(number(parameters, "cell")),
-        level_(number(parameters, "level")),
-        smoothing_(integer(parameters, "smoothing")),
+        shape_(surface_shape(parameters)),
         series_(export_folder(*problem_), "surface", format_) {
     if (!has_openvdb()) static_cast<void>(surface_of({}, 0, 0));
   }
 
   static Snapshot take(graph::HostContext& context) { return {Copy(context, "position"), Copy(context, "volume")}; }
 
-  // Initial volumes in place of masses make the share of space that snow fills, in whatever material: 1 as it was laid.
   void write(const Snapshot& snapshot, std::uint64_t frame, double time) {
-    const scene::Domain& domain = *problem_->scene.domain;
     const std::vector<float> position = snapshot.position.floats();
-    const NodeField field = node_field(position, position, snapshot.volume.floats(), domain.min, cell_ * domain.cell);
-    const NamedMesh mesh{"snow", surface_of(field, level_, smoothing_)};
+    const NodeField share = share_of_snow(position, snapshot.volume.floats(), position, *problem_->scene.domain, shape_);
+    const NamedMesh mesh{"snow", snow_surface(share, shape_)};
     write_file(series_.file(frame), format_ == "ply" ? ply_of(mesh.mesh) : obj_of({&mesh, 1}));
     series_.add(frame, time);
   }
@@ -41,38 +38,20 @@ class SurfaceFiles {
  private:
   std::shared_ptr<const Problem> problem_;
   std::string format_;
-  double cell_, level_;
-  int smoothing_;
+  SurfaceShape shape_;
   Series series_;
 };
 
 }  // namespace
 
 graph::StageSpec surface() {
+  std::vector<graph::ParameterSpec> parameters{format_parameter({"ply", "obj"}, "kind of file")};
+  for (const graph::ParameterSpec& parameter : surface_parameters(0.4)) parameters.push_back(parameter);
   return {.name = "io.surface",
           .doc = "A closed mesh of triangles round the snow: export/surface_0000.ply and so on",
           .equation = "",
           .ports = {for_host(mpm::position(Access::read)), for_host(mpm::volume(Access::read))},
-          .parameters = {format_parameter({"ply", "obj"}, "kind of file"),
-                         {.name = "cell",
-                          .initial = 1.0,
-                          .min = 0.25,
-                          .max = 4.0,
-                          .unit = "1",
-                          .doc = "edge of the mesh's cells, in cells of the grid; below the distance of particles it has holes"},
-                         {.name = "level",
-                          .initial = 0.4,
-                          .min = 0.01,
-                          .max = 2.0,
-                          .unit = "1",
-                          .doc = "share of space, as snow was laid, that counts as inside"},
-                         {.name = "smoothing",
-                          .kind = graph::ParameterKind::integer,
-                          .initial = std::int64_t{1},
-                          .min = 0,
-                          .max = 20,
-                          .unit = "1",
-                          .doc = "passes that even out the density before"}},
+          .parameters = parameters,
           .work = {graph::HostWork{}}};
 }
 
