@@ -4,8 +4,8 @@
 
 // Half the extent along the world's axes of a body about its origin.
 vec3 half_extent(int body, vec4 turn) {
-  vec3 size = body_size[body].xyz;
-  int kind = body_kind[body];
+  vec3 size = body_size_at(body).xyz;
+  int kind = body_kind_at(body);
   if (kind == 1) return vec3(size.x);
   if (kind == 3) return abs(turned(turn, vec3(0.0, size.y, 0.0))) + size.x;
   return abs(turned(turn, vec3(size.x, 0.0, 0.0))) + abs(turned(turn, vec3(0.0, size.y, 0.0))) + abs(turned(turn, vec3(0.0, 0.0, size.z)));
@@ -13,7 +13,7 @@ vec3 half_extent(int body, vec4 turn) {
 
 void main() {
   int body = int(group_number());
-  if (body >= int(bodies_count) || body_kind[body] == 0) return;
+  if (body >= int(bodies_count) || body_kind_at(body) == 0) return;
   Pose now = pose(body), before = pose_before(body);
   vec3 reach_now = half_extent(body, now.turn), reach_before = half_extent(body, before.turn);
   vec2 low = min(now.place.xz - reach_now.xz, before.place.xz - reach_before.xz), high = max(now.place.xz + reach_now.xz, before.place.xz + reach_before.xz);

@@ -11,13 +11,13 @@ const vec2 corners[6] = vec2[6](vec2(0, 0), vec2(1, 0), vec2(1, 1), vec2(0, 0), 
 
 void main() {
   body = gl_InstanceID;
-  int part = gl_VertexID / 6, kind = body_kind[body];
+  int part = gl_VertexID / 6, kind = body_kind_at(body);
   vec2 corner = corners[gl_VertexID % 6];
   gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   a = b = c = vec3(0.0);
-  radius = body_size[body].x;
+  radius = body_size_at(body).x;
   if (!(kind == 1 && part == 0 || kind == 3)) return;
-  vec3 axis = vec3(0.0, kind == 3 ? body_size[body].y : 0.0, 0.0);
+  vec3 axis = vec3(0.0, kind == 3 ? body_size_at(body).y : 0.0, 0.0);
   Pose now = pose(body), before = pose_before(body);
   vec3 low_now = placed(now, -axis), high_now = placed(now, axis), low_before = placed(before, -axis), high_before = placed(before, axis);
   if (part < 4) {

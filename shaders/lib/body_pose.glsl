@@ -1,5 +1,5 @@
-// Where a body is, and where it was a step before where that is known. Needs the ports body_position and body_orientation; optional
-// body_position_before and body_orientation_before.
+// Where a body is, and where it was a step before where that is known. Needs the sampled ports body_position and
+// body_orientation; optional body_position_before and body_orientation_before.
 #include "lib/turn.glsl"
 
 struct Pose {
@@ -7,10 +7,10 @@ struct Pose {
   vec4 turn;
 };
 
-Pose pose(int body) { return Pose(body_position[body], body_orientation[body]); }
+Pose pose(int body) { return Pose(body_position_at(body), body_orientation_at(body)); }
 Pose pose_before(int body) {
 #if HAS_BODY_POSITION_BEFORE && HAS_BODY_ORIENTATION_BEFORE
-  return Pose(body_position_before[body], body_orientation_before[body]);
+  return Pose(body_position_before_at(body), body_orientation_before_at(body));
 #else
   return pose(body);
 #endif

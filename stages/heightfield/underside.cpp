@@ -7,11 +7,12 @@ namespace firn::stages::heightfield {
 
 graph::StageSpec underside() {
   using enum Access;
-  std::vector<graph::PortUse> round_body = {{"body_kind", read}, {"body_size", read}};
-  std::vector<graph::PortUse> flat_body = {{"facet_points", read}, {"facet_body", read}};
+  std::vector<graph::PortUse> round_body, flat_body;
   for (std::vector<graph::PortUse>* uses : {&round_body, &flat_body})
-    for (const char* name : {"body_position", "body_orientation", "body_position_before", "body_orientation_before"})
-      uses->push_back({name, read});
+    for (const char* name : {"body_kind", "body_position", "body_orientation", "body_position_before", "body_orientation_before"})
+      uses->push_back({name, read, graph::Usage::sampled});
+  round_body.push_back({"body_size", read, graph::Usage::sampled});
+  for (const char* name : {"facet_points", "facet_body"}) flat_body.push_back({name, read, graph::Usage::sampled});
   const graph::PortUse map_again{"underside_map", read_write, graph::Usage::framebuffer};
   const graph::PortUse depth_again{"underside_depth", read_write, graph::Usage::framebuffer};
   flat_body.push_back(map_again);
