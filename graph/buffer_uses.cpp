@@ -134,7 +134,8 @@ bool writes_all(const Work& work, const Port& port, Access access) {
   const auto* dispatch = std::get_if<Dispatch>(&work);
   if (dispatch == nullptr) return std::holds_alternative<HostWork>(work);
   const bool few = !port.domain.empty() && port.domain.find_first_not_of("0123456789") == std::string::npos;
-  return dispatch->indirect.empty() && (dispatch->over == port.domain || few);
+  const bool several_each = port.domain.starts_with(dispatch->over + "*");
+  return dispatch->indirect.empty() && !dispatch->over.empty() && (dispatch->over == port.domain || several_each || few);
 }
 
 void lay_out_memory(Plan& plan, const BufferUses& uses, bool share) {

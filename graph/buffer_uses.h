@@ -30,7 +30,8 @@ using BufferUses = std::map<int, std::vector<BufferUse>>;  // by buffer; uses in
 // read before the first write; writes that nobody reads.
 void check_buffers(const Plan& plan, const BufferUses& uses, const Registry& registry, config::Diagnostics& diagnostics);
 
-// Whether a piece of work leaves nothing of a port's former content: it writes, and has one invocation for every element.
+// Whether a piece of work leaves nothing of a port's former content: it writes, and has one invocation for every element, or for
+// every so many that belong together ("particles*3" over "particles").
 // Dispatches over groups that are counted on the device, or over something else, are taken to write only a part.
 bool writes_all(const Work& work, const Port& port, Access access);
 

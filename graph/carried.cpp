@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "graph/buffer_uses.h"
+#include "graph/environment.h"
 
 namespace firn::graph {
 namespace {
@@ -27,14 +29,31 @@ bool begins_anew(const Plan& plan, const Run& run, const BufferAccess& access) {
   return false;
 }
 
-using FirstUses = std::map<int, bool>;  // by buffer: whether its first use in a phase begins it anew
+// Of a phase.
+struct FirstUses {
+  std::map<int, bool> begun;       // by buffer: whether its first use begins it anew
+  std::set<std::string> relisted;  // domains whose list was made anew, so that nobody may read what was stored for the old one
+};
 
-void collect(const Plan& plan, const std::vector<Op>& ops, FirstUses& first) {
+void note_lists(const Plan& plan, const Run& run, FirstUses& uses) {
+  if (plan.stages[static_cast<std::size_t>(run.stage)].every != 1 || run.groups.buffer >= 0) return;
+  for (const auto& [domain, list] : plan.environment.listed_by)
+    for (const BufferAccess& access : run.accesses)
+      if (access.access == Access::write && access.buffer == plan.buffer(list)) uses.relisted.insert(domain);
+}
+
+void collect(const Plan& plan, const std::vector<Op>& ops, FirstUses& uses, bool in_repeat = false) {
+  auto& first = uses.begun;
   for (const Op& op : ops) {
-    if (const auto* run = std::get_if<Run>(&op.what))
-      for (const BufferAccess& access : run->accesses) first.emplace(access.buffer, begins_anew(plan, *run, access));
+    if (const auto* run = std::get_if<Run>(&op.what)) {
+      if (!in_repeat) note_lists(plan, *run, uses);
+      for (const BufferAccess& access : run->accesses) {
+        const std::string domain = base_domain(plan.buffers[static_cast<std::size_t>(access.buffer)].domain);
+        first.emplace(access.buffer, uses.relisted.contains(domain) || begins_anew(plan, *run, access));
+      }
+    }
     if (const auto* repeat = std::get_if<Repeat>(&op.what)) {
-      collect(plan, repeat->body, first);
+      collect(plan, repeat->body, uses, true);
       if (repeat->until) {
         first.emplace(repeat->until->buffer, false);
         if (repeat->until->progress >= 0) first.emplace(repeat->until->progress, false);
@@ -52,8 +71,8 @@ std::vector<int> carried(const Plan& plan) {
   std::vector<int> buffers;
   for (int b = 0; b < static_cast<int>(plan.buffers.size()); ++b)
     if (std::ranges::any_of(std::vector{&in_step, &in_frame}, [&](const FirstUses* first) {
-          const auto found = first->find(b);
-          return found != first->end() && !found->second;
+          const auto found = first->begun.find(b);
+          return found != first->begun.end() && !found->second;
         }))
       buffers.push_back(b);
   return buffers;

@@ -3,6 +3,7 @@
 #include "graph/carried.h"
 
 #include <algorithm>
+#include <set>
 
 #include "app/arrays.h"
 #include "tests/catch.h"
@@ -68,7 +69,7 @@ Contents after(const app::Loaded& loaded, std::optional<std::byte> poison) {
 }  // namespace
 
 TEST_CASE("what is not carried from step to step can be overwritten between two of them") {
-  const std::string pipeline = GENERATE("mpm_snow", "mpm_thesis", "heightfield_contour", "heightfield_distance");
+  const std::string pipeline = GENERATE("mpm_snow", "mpm_apic", "mpm_thesis", "heightfield_contour", "heightfield_distance");
   CAPTURE(pipeline);
   const SceneFile scene(pipeline.starts_with("mpm") ? ball_text : field_text);
   app::Inputs inputs;
@@ -94,4 +95,36 @@ TEST_CASE("what is not carried from step to step can be overwritten between two 
       CHECK(same);
     }
   }
+}
+
+TEST_CASE("a checkpoint of mpm_snow holds the state and nothing that a step or a picture makes anew") {
+  const SceneFile scene(ball_text);
+  app::Inputs inputs;
+  inputs.pipeline = pipeline_file("mpm_snow");
+  inputs.scene = scene.path;
+  const auto names = [&] {
+    const app::Loaded loaded = app::load(inputs, "");
+    std::set<std::string> list;
+    for (const int b : graph::carried(loaded.plan)) list.insert(loaded.plan.buffers[static_cast<std::size_t>(b)].name);
+    return list;
+  };
+  const std::set<std::string> of_particles{"elastic", "mass",   "material",          "plastic_det", "position",
+                                           "stress",  "volume", "velocity_gradient", "velocity"};
+  const std::set<std::string> of_scene{
+      "material_elastic", "material_plastic", "facet_body",     "facet_points",      "path_orientation",    "path_position",
+      "path_time",        "body_color",       "body_distances", "body_distance_box", "body_distance_nodes", "body_friction",
+      "body_inertia",     "body_kind",        "body_mass",      "body_orientation",  "body_path",           "body_position",
+      "body_size",        "body_spin",        "body_velocity"};
+  // The table that finds blocks, which the next sort clears entry by entry.
+  const std::set<std::string> of_table{"active_block_count", "block_cells", "block_counter", "block_entry",     "block_groups",
+                                       "block_key",          "block_slot",  "cell_count",    "particle_counter"};
+  // Lists of bodies by tiles of the picture, written as long as they are.
+  std::set<std::string> expected{"tile_bodies"};
+  for (const auto& part : {of_particles, of_scene, of_table}) expected.insert(part.begin(), part.end());
+  inputs.replace = {"snow_picture=render.surface"};
+  CHECK(names() == expected);
+  // Grains are lit by the grid's mass, which a picture may ask for before the next step makes it anew.
+  inputs.replace = {};
+  expected.insert({"grid_mass", "block_near", "particle_cell"});
+  CHECK(names() == expected);
 }
