@@ -148,6 +148,27 @@ TEST_CASE("the distance transform and its distribution are the reference's, by b
   }
 }
 
+TEST_CASE("distances are the cheapest ones where the way out winds from body to body") {
+  INFO("seed " << seed());
+  RandomField f(seed(), 45, 70, 6);
+  f.velocity = {{1, 0, 0}, {-1, 0, 0}, {0, 0, 1}, {0, 0, -1}, {0, -1, 0}, {1, -1, 0.5}};
+  f.overlap.setConstant(0.5);
+  f.overlap(20, 30) = 0;  // the only way out
+  for (int z = 0; z < f.field.rows(); ++z)
+    for (int x = 0; x < f.field.columns(); ++x) f.underside.owner(z, x) = static_cast<int>(f.random.uniform(0, 5.999));
+  const std::vector<float> expected = flat(ref::distance_transform(f.overlap, f.underside.owner, costs(f, direction("thesis", 4))));
+  const Arrays out = run("heightfield.distance_transform", "{}", f, f.arrays({"overlap", "owner", "body_velocity"}));
+  const std::vector<float>& ours = out.floats.at("distance");
+  REQUIRE(ours.size() == expected.size());
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    CAPTURE(i);
+    if (std::isinf(expected[i]))
+      CHECK(std::isinf(ours[i]));
+    else
+      CHECK(std::abs(ours[i] - expected[i]) <= 1e-5f * expected[i]);
+  }
+}
+
 TEST_CASE("deposit adds what the reference adds") {
   INFO("seed " << seed());
   RandomField f(seed(), 45, 70, 6);
