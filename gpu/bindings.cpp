@@ -17,6 +17,7 @@ void Bindings::forget_buffer(std::uint32_t id) {
   forget(storage, id);
   forget(uniform, id);
   forget(indirect, id);
+  forget(edited, id);
 }
 
 void Bindings::forget_texture(std::uint32_t id) {

@@ -15,9 +15,11 @@ struct Bindings {
   std::vector<std::uint32_t> textures_2d, textures_buffer;  // by texture unit
   std::vector<std::uint32_t> images;                        // by image unit
   std::uint32_t indirect = 0;
+  std::uint32_t edited = 0;  // the buffer bound where buffers are changed
   std::uint32_t framebuffer = 0;
   bool draw_state_known = false;
   std::uint64_t draw_state = 0;  // DrawState, packed
+  int viewport_width = 0, viewport_height = 0, patch_vertices = 0;
 
   void forget_buffer(std::uint32_t id);
   void forget_texture(std::uint32_t id);

@@ -9,9 +9,6 @@ namespace firn::gpu {
 
 namespace {
 
-// Changes go through a binding point that nothing else uses: direct state access is OpenGL 4.5.
-constexpr GLenum edit_point = GL_COPY_WRITE_BUFFER;
-
 void zero(std::uint64_t bytes) {
   if (bytes % 4 == 0) {
     glClearBufferData(edit_point, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
@@ -41,7 +38,7 @@ Buffer::Buffer(std::uint64_t bytes, const std::string& label) : bytes_(bytes ? b
   context.check();
   glGenBuffers(1, &id_);
   try {
-    glBindBuffer(edit_point, id_);
+    bind_edited(context, id_);
     glBufferData(edit_point, static_cast<GLsizeiptr>(bytes_), nullptr, GL_DYNAMIC_COPY);
     check_allocation(context, "buffer", label, bytes_);
     zero(bytes_);
@@ -64,22 +61,22 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
 void Buffer::upload(std::uint64_t offset, std::span<const std::byte> data) {
   if (data.empty()) return;
   Context& context = current();
-  glBindBuffer(edit_point, id_);
+  bind_edited(context, id_);
   glBufferSubData(edit_point, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()), data.data());
-  context.check();
+  context.check_quickly();
 }
 
 void Buffer::download(std::uint64_t offset, std::span<std::byte> data) const {
   if (data.empty()) return;
   Context& context = current();
-  glBindBuffer(edit_point, id_);
+  bind_edited(context, id_);
   glGetBufferSubData(edit_point, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(data.size()), data.data());
   context.check();
 }
 
 void Buffer::clear() {
   Context& context = current();
-  glBindBuffer(edit_point, id_);
+  bind_edited(context, id_);
   zero(bytes_);
   context.check();
 }

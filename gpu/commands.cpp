@@ -26,9 +26,13 @@ constexpr struct {
 
 void bind_texture_unit(Context& context, std::vector<std::uint32_t>& points, std::uint32_t unit, GLenum target, std::uint32_t id) {
   if (is_bound(points, unit, id)) return;
-  glActiveTexture(GL_TEXTURE0 + unit);
-  context.check_told();  // else a unit too high would change the unit before
-  glBindTexture(target, id);
+  if (GLAD_GL_VERSION_4_5) {
+    glBindTextureUnit(unit, id);
+  } else {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    context.check_told();  // else a unit too high would change the unit before
+    glBindTexture(target, id);
+  }
   context.check_told();
   note_bound(points, unit, id);
 }
@@ -125,8 +129,8 @@ void dispatch_indirect(std::uint64_t offset) {
 void copy(const Buffer& from, const Buffer& to, std::uint64_t bytes) {
   Context& context = current();
   glBindBuffer(GL_COPY_READ_BUFFER, from.id());
-  glBindBuffer(GL_COPY_WRITE_BUFFER, to.id());
-  glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, static_cast<GLsizeiptr>(bytes));
+  bind_edited(context, to.id());
+  glCopyBufferSubData(GL_COPY_READ_BUFFER, edit_point, 0, 0, static_cast<GLsizeiptr>(bytes));
   context.check_told();
 }
 

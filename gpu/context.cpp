@@ -116,6 +116,7 @@ DeviceInfo read_info() {
   for (int index = 0; index < extensions; ++index) {
     info.extensions.insert(reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, index)));
   }
+  info.program_binary_formats = small_number(GL_NUM_PROGRAM_BINARY_FORMATS);
   info.limits = read_limits();
   info.limits.memory_bytes = memory_of(info);
   return info;
@@ -150,16 +151,36 @@ Context::Context(const EglPlace& place) : egl(place), below(current_context) {
     make_current();
     info = read_info();
     info.software = info.software || place.says_software;
-    listen(this);
-    glGenVertexArrays(1, &vertex_array);
-    glBindVertexArray(vertex_array);
-    glEnable(GL_PROGRAM_POINT_SIZE);
-    edit_unit = GL_TEXTURE0 + small_number(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS) - 1;
-    check();
+    set_up();
   } catch (...) {
     leave(egl, below);
     throw;
   }
+}
+
+// The functions of OpenGL are loaded already, into variables that all threads share.
+Context::Context(const Context* shared) : egl(&shared->egl), below(current_context), info(shared->info) {
+  if (!egl.make_current()) throw DeviceError("eglMakeCurrent failed");
+  current_context = this;
+  try {
+    set_up();
+  } catch (...) {
+    leave(egl, below);
+    throw;
+  }
+}
+
+void Context::set_up() {
+  listen(this);
+  glEnable(GL_NONE);  // an error: is it told?
+  tells_errors = !errors.empty();
+  forget_errors();
+  glGenVertexArrays(1, &vertex_array);
+  glBindVertexArray(vertex_array);
+  glEnable(GL_PROGRAM_POINT_SIZE);
+  edit_unit = GL_TEXTURE0 + small_number(GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS) - 1;
+  if (info.extensions.contains("GL_KHR_parallel_shader_compile")) glMaxShaderCompilerThreadsKHR(0xffffffff);  // as many as it likes
+  check();
 }
 
 Context::~Context() {
@@ -211,6 +232,12 @@ Context& current() {
 }
 
 Context* current_or_null() noexcept { return current_context; }
+
+void bind_edited(Context& context, GLuint buffer) {
+  if (buffer && context.bindings.edited == buffer) return;
+  glBindBuffer(edit_point, buffer);
+  context.bindings.edited = buffer;
+}
 
 void check_allocation(Context& context, std::string_view what, std::string_view label, std::uint64_t bytes) {
   try {

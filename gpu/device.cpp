@@ -4,9 +4,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <charconv>
+#include <exception>
 #include <optional>
+#include <thread>
 
 #include "gpu/context.h"
 
@@ -110,11 +113,41 @@ const DeviceInfo& Device::info() const { return state_->context.info; }
 bool Device::has(const std::string& extension) const { return info().extensions.contains(extension); }
 std::string Device::version_directive() const { return fmt::format("#version {}{}0 core", info().major, info().minor); }
 void Device::label(const char* text) { state_->context.label = text ? text : ""; }
-void Device::check() const { state_->context.check(); }
+void Device::check() const { state_->context.check_quickly(); }
 
 void Device::finish() {
   glFinish();
-  check();
+  state_->context.check();
+}
+
+void Device::share_out(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& job) {
+  std::atomic<std::size_t> next{0};
+  std::vector<std::exception_ptr> failures(count);
+  const auto take_some = [&] {
+    for (std::size_t i = next++; i < count; i = next++) {
+      try {
+        job(i);
+      } catch (...) {
+        failures[i] = std::current_exception();
+      }
+    }
+  };
+  finish();  // what other contexts are to see must be there
+  std::vector<std::thread> others;
+  for (unsigned i = 1; i < threads && i < count; ++i)
+    others.emplace_back([&] {
+      try {
+        const Context context(&state_->context);
+        take_some();
+        glFinish();
+      } catch (const std::runtime_error&) {
+        // No further context is to be had: those that there are do its share.
+      }
+    });
+  take_some();
+  for (std::thread& other : others) other.join();
+  for (const std::exception_ptr& failure : failures)
+    if (failure) std::rethrow_exception(failure);
 }
 
 }  // namespace firn::gpu

@@ -5,7 +5,9 @@
 // ...) is used and destroyed while that Device is current, or destroyed when none is open any more. A Device must be closed before
 // the program's statics are destroyed, as drivers shut down there too.
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <set>
 #include <stdexcept>
@@ -45,7 +47,8 @@ struct DeviceInfo {
   std::string vendor;
   std::string version;  // GL_VERSION, names the driver
   int major = 0, minor = 0;
-  bool software = false;  // a CPU renderer: llvmpipe, softpipe, swrast
+  bool software = false;           // a CPU renderer: llvmpipe, softpipe, swrast
+  int program_binary_formats = 0;  // 0: the driver hands out no compiled programs (Mesa without its own shader cache)
   Limits limits;
   std::set<std::string> extensions;
 };
@@ -80,6 +83,11 @@ class Device {
   void check() const;
 
   void finish();
+
+  // Calls `job` for each of 0 .. count - 1, on this thread and as many more as `threads` allows. Each further thread has a context
+  // of its own, which shares buffers, textures and programs with this device's but not what is bound; all that job() created is
+  // there for all when this returns. Throws the exception of the lowest number, once all have ended.
+  void share_out(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& job);
 
  private:
   struct State;

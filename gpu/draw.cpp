@@ -59,9 +59,12 @@ void set_blend(Blend blend) {
   }
 }
 
+constexpr std::uint64_t depth_write_bit = 1;
+
 // Everything of the state that set_state() hands to OpenGL, as one number.
 std::uint64_t packed(const DrawState& state) {
-  const std::uint64_t flags = (state.depth_write ? 1u : 0u) | (state.wireframe ? 2u : 0u) | (state.cull_back ? 4u : 0u);
+  const std::uint64_t flags =
+      (state.depth_write ? depth_write_bit : 0u) | (state.wireframe ? 2u : 0u) | (state.cull_back ? 4u : 0u);
   return flags | static_cast<std::uint64_t>(state.depth_test) << 8 | static_cast<std::uint64_t>(state.blend) << 16;
 }
 
@@ -75,6 +78,19 @@ void set_state(Context& context, const DrawState& state) {
   glCullFace(GL_BACK);
   context.bindings.draw_state = wanted;
   context.bindings.draw_state_known = true;
+}
+
+void set_viewport(Bindings& known, int width, int height) {
+  if (known.viewport_width == width && known.viewport_height == height) return;
+  glViewport(0, 0, width, height);
+  known.viewport_width = width;
+  known.viewport_height = height;
+}
+
+void set_patch(Bindings& known, int vertices) {
+  if (known.patch_vertices == vertices) return;
+  glPatchParameteri(GL_PATCH_VERTICES, vertices);
+  known.patch_vertices = vertices;
 }
 
 void bind_target(Context& context, const Framebuffer& target) {
@@ -110,11 +126,11 @@ void draw(const Framebuffer& target, const DrawState& state, std::uint32_t verti
   if (!vertices || !instances) return;
   Context& context = current();
   bind_target(context, target);
-  glViewport(0, 0, target.width(), target.height());
+  set_viewport(context.bindings, target.width(), target.height());
   set_state(context, state);
-  if (state.topology == Topology::patches) glPatchParameteri(GL_PATCH_VERTICES, state.patch_vertices);
+  if (state.topology == Topology::patches) set_patch(context.bindings, state.patch_vertices);
   glDrawArraysInstanced(primitive(state.topology), 0, static_cast<GLsizei>(vertices), static_cast<GLsizei>(instances));
-  context.check();
+  context.check_quickly();
 }
 
 void clear_color(const Framebuffer& target, int attachment, float r, float g, float b, float a) {
@@ -131,17 +147,17 @@ void clear_color(const Framebuffer& target, int attachment, float r, float g, fl
   } else {
     glClearBufferfv(GL_COLOR, attachment, std::array{r, g, b, a}.data());
   }
-  context.check();
+  context.check_quickly();
 }
 
 void clear_depth(const Framebuffer& target, float depth) {
   Context& context = current();
   bind_target(context, target);
   // The mask of the draws holds for clears too.
-  glDepthMask(GL_TRUE);
-  context.bindings.draw_state_known = false;
+  if (!context.bindings.draw_state_known || !(context.bindings.draw_state & depth_write_bit)) glDepthMask(GL_TRUE);
+  context.bindings.draw_state |= depth_write_bit;
   glClearBufferfv(GL_DEPTH, 0, &depth);
-  context.check();
+  context.check_quickly();
 }
 
 }  // namespace firn::gpu

@@ -55,8 +55,7 @@ std::string device_path(EGLDeviceEXT device, const char* extensions) {
   return path ? path : "";
 }
 
-// `debug` asks for debug output, as an attribute and its value.
-EGLContext create_context(EGLDisplay display, std::array<EGLint, 2> debug) {
+EGLContext create_context(EGLDisplay display, std::array<EGLint, 2> debug, EGLContext shared) {
   if (!eglBindAPI(EGL_OPENGL_API)) throw DeviceError("this EGL offers no OpenGL, only OpenGL ES");
   constexpr EGLint config_attributes[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
@@ -73,12 +72,12 @@ EGLContext create_context(EGLDisplay display, std::array<EGLint, 2> debug) {
                                  debug[0],
                                  debug[1],
                                  EGL_NONE};
-    const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
+    const EGLContext context = eglCreateContext(display, config, shared, attributes);
     if (context != EGL_NO_CONTEXT) return context;
   }
   const std::string reason = egl_error();
   constexpr EGLint any_version[] = {EGL_NONE};
-  const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, any_version);
+  const EGLContext context = eglCreateContext(display, config, shared, any_version);
   if (context == EGL_NO_CONTEXT) throw DeviceError(fmt::format("no OpenGL context could be created ({})", reason));
   return context;
 }
@@ -131,8 +130,12 @@ EglContext::EglContext(const EglPlace& place) {
   if (!lists(extensions, "EGL_KHR_surfaceless_context")) {
     throw DeviceError("EGL_KHR_surfaceless_context is needed (a context without a window) and not offered");
   }
-  context_ = create_context(display_, modern ? std::array{EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE} : khr_debug);
+  debug_ = modern ? std::array{EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE} : khr_debug;
+  context_ = create_context(display_, debug_, EGL_NO_CONTEXT);
 }
+
+EglContext::EglContext(const EglContext* shared)
+    : display_(shared->display_), debug_(shared->debug_), context_(create_context(display_, debug_, shared->context_)) {}
 
 EglContext::~EglContext() {
   if (eglGetCurrentContext() == context_) release();

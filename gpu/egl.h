@@ -4,6 +4,7 @@
 
 #include <glad/egl.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ class EglContext {
   // Asks for 4.6, 4.5 and 4.3 with debug output, then for any core context, so that the caller can tell what is offered instead.
   // Throws DeviceError with the reason alone (the caller knows the place).
   explicit EglContext(const EglPlace& place);
+  // A further one, which has the objects of `shared` too. For another thread: nothing of EGL or glad is initialised.
+  explicit EglContext(const EglContext* shared);
   ~EglContext();
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
@@ -35,6 +38,7 @@ class EglContext {
 
  private:
   EGLDisplay display_ = EGL_NO_DISPLAY;
+  std::array<EGLint, 2> debug_ = {};  // the attribute that asks for debug output, and its value
   EGLContext context_ = EGL_NO_CONTEXT;
 };
 

@@ -1,11 +1,13 @@
 #include "gpu/program.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <memory>
+#include <algorithm>
 #include <utility>
 
 #include "gpu/context.h"
+#include "gpu/program_cache.h"
 #include "gpu/shader_source.h"
 
 namespace firn::gpu {
@@ -30,16 +32,14 @@ GLenum gl_kind(ShaderKind kind) {
   throw std::logic_error("unknown kind of shader");
 }
 
-// Owns a shader object until the program has been linked.
-struct Shader {
-  explicit Shader(ShaderKind kind) : id(glCreateShader(gl_kind(kind))) {}
-  ~Shader() {
-    if (current_or_null()) glDeleteShader(id);
-  }
-  Shader(const Shader&) = delete;
-  Shader& operator=(const Shader&) = delete;
-  GLuint id;
-};
+void delete_program(std::uint32_t id) noexcept {
+  Context* context = current_or_null();
+  if (!id || !context) return;
+  // A program in use would keep its id until another is used.
+  if (context->bindings.program == id) glUseProgram(0);
+  context->bindings.forget_program(id);
+  glDeleteProgram(id);
+}
 
 std::string shader_log(GLuint id) {
   GLint length = 0;
@@ -59,66 +59,146 @@ std::string program_log(GLuint id) {
   return log;
 }
 
-// Empty where it compiled.
-std::string compile_errors(GLuint id, const ShaderSource& source) {
-  const std::string text = with_plain_lines(source.text);
-  const char* start = text.data();
-  const GLint length = static_cast<GLint>(text.size());
-  glShaderSource(id, 1, &start, &length);
-  glCompileShader(id);
-  GLint compiled = GL_FALSE;
-  glGetShaderiv(id, GL_COMPILE_STATUS, &compiled);
-  if (compiled) return "";
-  const std::string log = mapped_log(shader_log(id), source);
-  return log.empty() ? "the driver gives no reason" : log;
+bool is_linked(GLuint id) {
+  GLint linked = GL_FALSE;
+  glGetProgramiv(id, GL_LINK_STATUS, &linked);
+  return linked == GL_TRUE;
 }
 
-void delete_program(std::uint32_t id) noexcept {
-  Context* context = current_or_null();
-  if (!id || !context) return;
-  // A program in use would keep its id until another is used.
-  if (context->bindings.program == id) glUseProgram(0);
-  context->bindings.forget_program(id);
-  glDeleteProgram(id);
+// A program that the driver has been told to compile and link, and has not been asked about.
+class Compilation {
+ public:
+  Compilation(const ProgramSource& source, bool to_be_stored) : source_(&source), program_(glCreateProgram()) {
+    if (to_be_stored) glProgramParameteri(program_, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
+    for (const auto& [kind, text] : source.shaders) {
+      const GLuint shader = shaders_.emplace_back(glCreateShader(gl_kind(kind)));
+      if (!shader) continue;  // a kind that the driver does not know, which errors() tells
+      const std::string plain = with_plain_lines(text.text);
+      const char* start = plain.data();
+      const GLint length = static_cast<GLint>(plain.size());
+      glShaderSource(shader, 1, &start, &length);
+      glCompileShader(shader);
+      glAttachShader(program_, shader);
+    }
+    glLinkProgram(program_);
+  }
+  ~Compilation() {
+    if (!current_or_null()) return;
+    for (const GLuint shader : shaders_) glDeleteShader(shader);
+    delete_program(program_);
+  }
+  Compilation(Compilation&& other) noexcept
+      : source_(other.source_), shaders_(std::move(other.shaders_)), program_(std::exchange(other.program_, 0)) {}
+  Compilation& operator=(Compilation&&) = delete;
+
+  // Waits. Empty where all went well.
+  [[nodiscard]] std::string errors() const {
+    if (is_linked(program_)) return "";
+    std::string errors;
+    for (std::size_t i = 0; i < shaders_.size(); ++i) {
+      GLint compiled = GL_FALSE;
+      if (shaders_[i]) glGetShaderiv(shaders_[i], GL_COMPILE_STATUS, &compiled);
+      if (compiled) continue;
+      const std::string log = shaders_[i] ? mapped_log(shader_log(shaders_[i]), source_->shaders[i].second) : "";
+      errors += (errors.empty() ? "" : "\n") + (log.empty() ? "the driver gives no reason" : log);
+    }
+    if (!errors.empty()) return fmt::format("'{}' does not compile:\n{}", source_->label, errors);
+    // With several shaders nothing tells whose source the ids are of.
+    const ShaderSource& source = source_->shaders.size() == 1 ? source_->shaders[0].second : ShaderSource{};
+    return fmt::format("'{}' does not link:\n{}", source_->label, mapped_log(program_log(program_), source));
+  }
+
+  // Once there are no errors.
+  GLuint take() {
+    for (const GLuint shader : shaders_) glDetachShader(program_, shader);
+    name_object(GL_PROGRAM, program_, source_->label);
+    return std::exchange(program_, 0);
+  }
+
+ private:
+  const ProgramSource* source_;
+  std::vector<GLuint> shaders_;
+  GLuint program_ = 0;
+};
+
+// Another driver, another version of it, or another source: another key.
+std::string key_of(const ProgramSource& source, const DeviceInfo& device) {
+  std::string all = fmt::format("{}\n{}\n{}\n", device.vendor, device.name, device.version);
+  for (const auto& [kind, text] : source.shaders) {
+    const std::string plain = with_plain_lines(text.text);
+    all += fmt::format("{} {}\n{}", static_cast<int>(kind), plain.size(), plain);
+  }
+  return digest(all);
+}
+
+void store(const ProgramSource& source, GLuint program, const ProgramCache& cache, Context& context) {
+  GLint length = 0;
+  glGetProgramiv(program, GL_PROGRAM_BINARY_LENGTH, &length);
+  if (length <= 0) return;
+  ProgramCache::Entry entry;
+  entry.binary.resize(length);
+  GLenum format = 0;
+  glGetProgramBinary(program, length, &length, &format, entry.binary.data());
+  entry.binary.resize(length);
+  entry.format = format;
+  context.check();
+  cache.store(key_of(source, context.info), entry);
 }
 
 }  // namespace
 
-Program::Program(std::span<const std::pair<ShaderKind, ShaderSource>> shaders, const std::string& label) {
+struct ProgramMaking {
+  static Program own(GLuint id) { return Program(id); }
+};
+
+std::optional<Program> cached_program(const ProgramSource& source, const ProgramCache& cache) {
+  Context& context = current();
+  if (context.info.program_binary_formats == 0) return std::nullopt;
+  const std::string key = key_of(source, context.info);
+  const std::optional<ProgramCache::Entry> entry = cache.find(key);
+  if (!entry) return std::nullopt;
+  context.check();
+  Program program = ProgramMaking::own(glCreateProgram());
+  glProgramBinary(program.id(), entry->format, entry->binary.data(), static_cast<GLsizei>(entry->binary.size()));
+  const bool taken = is_linked(program.id());
+  context.forget_errors();  // of a format that the driver does not know any more
+  if (!taken) {
+    cache.remove(key, fmt::format("{} does not take it any more", context.info.name));
+    return std::nullopt;
+  }
+  name_object(GL_PROGRAM, program.id(), source.label);
+  context.check();
+  return program;
+}
+
+std::vector<Program> compile_programs(std::span<const ProgramSource> sources, const ProgramCache* cache) {
   Context& context = current();
   context.check();
-  id_ = glCreateProgram();
-  try {
-    std::vector<std::unique_ptr<Shader>> compiled;
-    std::string errors;
-    for (const auto& [kind, source] : shaders) {
-      const Shader& shader = *compiled.emplace_back(std::make_unique<Shader>(kind));
-      if (!shader.id) context.check();  // a kind that the driver does not know
-      const std::string problem = compile_errors(shader.id, source);
-      if (!problem.empty()) errors += (errors.empty() ? "" : "\n") + problem;
-      glAttachShader(id_, shader.id);
-    }
-    if (!errors.empty()) {
-      context.forget_errors();  // some drivers report the same as errors of the API
-      throw ShaderError(fmt::format("'{}' does not compile:\n{}", label, errors));
-    }
-    glLinkProgram(id_);
-    GLint linked = GL_FALSE;
-    glGetProgramiv(id_, GL_LINK_STATUS, &linked);
-    if (!linked) {
-      context.forget_errors();
-      // With several shaders nothing tells whose source the ids are of.
-      const std::string log = program_log(id_);
-      throw ShaderError(
-          fmt::format("'{}' does not link:\n{}", label, mapped_log(log, shaders.size() == 1 ? shaders[0].second : ShaderSource{})));
-    }
-    for (const auto& shader : compiled) glDetachShader(id_, shader->id);
-    name_object(GL_PROGRAM, id_, label);
-    context.check();
-  } catch (...) {
-    delete_program(id_);
-    throw;
+  if (context.info.program_binary_formats == 0) cache = nullptr;
+  std::vector<Compilation> compilations;
+  compilations.reserve(sources.size());
+  for (const ProgramSource& source : sources) compilations.emplace_back(source, cache != nullptr);
+  std::vector<std::string> errors;
+  for (const Compilation& compilation : compilations) {
+    const std::string error = compilation.errors();
+    if (!error.empty() && std::find(errors.begin(), errors.end(), error) == errors.end()) errors.push_back(error);
   }
+  if (!errors.empty()) {
+    context.forget_errors();  // some drivers report the same as errors of the API
+    throw ShaderError(fmt::format("{}", fmt::join(errors, "\n")));
+  }
+  std::vector<Program> programs;
+  for (std::size_t i = 0; i < sources.size(); ++i) {
+    programs.push_back(ProgramMaking::own(compilations[i].take()));
+    if (cache) store(sources[i], programs.back().id(), *cache, context);
+  }
+  context.check();
+  return programs;
+}
+
+Program::Program(std::span<const std::pair<ShaderKind, ShaderSource>> shaders, const std::string& label) {
+  const ProgramSource source{{shaders.begin(), shaders.end()}, label};
+  *this = std::move(compile_programs(std::span(&source, 1), nullptr).front());
 }
 
 Program::~Program() { delete_program(id_); }

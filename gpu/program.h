@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -37,7 +38,13 @@ std::string mapped_log(std::string_view log, const ShaderSource& source);
 
 enum class ShaderKind { compute, vertex, fragment, tessellation_control, tessellation_evaluation, geometry };
 
-// A linked program. Throws ShaderError. `label` names it in driver errors and debuggers.
+// All that a program is made of. `label` names it in errors, of the driver too, and in debuggers.
+struct ProgramSource {
+  std::vector<std::pair<ShaderKind, ShaderSource>> shaders;
+  std::string label;
+};
+
+// A linked program. Throws ShaderError.
 class Program {
  public:
   Program() = default;
@@ -48,7 +55,20 @@ class Program {
   [[nodiscard]] std::uint32_t id() const { return id_; }
 
  private:
+  friend struct ProgramMaking;
+  explicit Program(std::uint32_t id) : id_(id) {}
   std::uint32_t id_ = 0;
 };
+
+class ProgramCache;
+
+// The program as an earlier start left it, if the device still takes that. Always nothing where the driver hands out no programs
+// (DeviceInfo::program_binary_formats).
+std::optional<Program> cached_program(const ProgramSource& source, const ProgramCache& cache);
+
+// Compiles, and leaves the programs in `cache` unless it is null. All sources are handed to the driver before the first result is
+// asked for, as those with GL_KHR_parallel_shader_compile then work on several at once. Throws ShaderError with what is wrong with
+// any of them.
+std::vector<Program> compile_programs(std::span<const ProgramSource> sources, const ProgramCache* cache);
 
 }  // namespace firn::gpu

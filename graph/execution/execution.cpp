@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
@@ -9,8 +10,10 @@
 #include <cstring>
 #include <functional>
 #include <map>
+#include <optional>
 
 #include "graph/execution/kernels.h"
+#include "graph/execution/programs.h"
 #include "graph/repeats.h"
 
 namespace firn::execution {
@@ -53,7 +56,8 @@ struct Execution::Parts {
   std::vector<gpu::Buffer> parameters;                  // by stage
   std::vector<std::unique_ptr<graph::HostStage>> host;  // by stage; empty where it has no host work
   gpu::Buffer clock_block;
-  gpu::Buffer faults;  // per stage and kind: count, 0xffffffff - first step
+  gpu::Buffer faults;           // per stage and kind: count, 0xffffffff - first step
+  std::vector<std::byte> read;  // by read_back()
   bool timing = false;
   std::unique_ptr<gpu::TimerRing> timers;  // made when first needed; never on software renderers
   std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
@@ -77,13 +81,22 @@ struct Execution::Parts {
       std::vector<Kernel>& of_stage = kernels.emplace_back();
       bool has_host_work = false;
       for (int w = 0; w < static_cast<int>(stage.spec.work.size()); ++w) {
-        of_stage.push_back(make_kernel(plan, s, w, memory, device, options.shader_folders));
+        of_stage.push_back(make_kernel(plan, s, w, memory, device));
         has_host_work |= std::holds_alternative<graph::HostWork>(stage.spec.work[static_cast<std::size_t>(w)]);
       }
       host.push_back(has_host_work ? registry.find(stage.spec.name)->host(stage.parameters) : nullptr);
     }
+    std::optional<gpu::ProgramCache> cache;
+    if (!options.program_cache.empty())
+      cache.emplace(options.program_cache, [](const std::string& what) { spdlog::debug("cache of programs: {}", what); });
+    make_programs(plan, kernels, device, options.shader_folders, cache ? &*cache : nullptr, [this](int s, int w) {
+      const auto stage = static_cast<std::size_t>(s);
+      bind_kernel(plan.stages[stage], kernels[stage][static_cast<std::size_t>(w)], memory, blocks(stage));
+    });
     time_passes(options.profile);
   }
+
+  [[nodiscard]] StageBlocks blocks(std::size_t stage) const { return {parameters[stage], clock_block, faults}; }
 
   void time_passes(bool on) {
     timing = on;
@@ -131,18 +144,25 @@ struct Execution::Parts {
     }
   }
 
-  [[nodiscard]] bool reached(const graph::PlannedUntil& until) const {
+  [[nodiscard]] bool reached(const graph::PlannedUntil& until) {
     const PlannedBuffer& watched = plan.buffers[static_cast<std::size_t>(until.buffer)];
     const auto all = [&]<typename T>(T, auto limit) {
-      std::vector<T> values(watched.count);
-      memory.buffer(until.buffer).download(0, std::as_writable_bytes(std::span(values)));
-      return std::ranges::all_of(values, limit);
+      const std::span<std::byte> bytes = read_back(memory.buffer(until.buffer), watched.count * sizeof(T));
+      return std::ranges::all_of(std::span(reinterpret_cast<const T*>(bytes.data()), watched.count), limit);
     };
     const std::int64_t largest = graph::largest_below(until.below);
     const auto whole = [&](auto value) { return std::int64_t{value} <= largest; };
     if (watched.type == graph::ElementType::int1) return all(std::int32_t{}, whole);
     if (watched.type == graph::ElementType::uint1) return all(std::uint32_t{}, whole);
     return all(0.0F, [&](float value) { return value < static_cast<float>(until.below); });
+  }
+
+  // The same memory each time.
+  std::span<std::byte> read_back(const gpu::Buffer& buffer, std::size_t bytes) {
+    if (read.size() < bytes) read.resize(bytes);
+    const std::span<std::byte> part = std::span(read).first(bytes);
+    buffer.download(0, part);
+    return part;
   }
 
   void work(const graph::Run& run, std::uint64_t turn);
@@ -223,7 +243,7 @@ void Execution::Parts::work(const graph::Run& run, std::uint64_t turn) {
   if (by_clock) device.finish();
   const double start = timing ? now() : 0;
   if (timing && timers) timers->begin(tag_of(run));
-  run_kernel(plan, run, kernels[s][static_cast<std::size_t>(run.work)], memory, parameters[s], clock_block, faults);
+  run_kernel(stage, run, kernels[s][static_cast<std::size_t>(run.work)], memory, blocks(s));
   if (timing && timers) timers->end();
   if (by_clock) {
     device.finish();
@@ -282,9 +302,9 @@ void Execution::resume(const graph::Clock& clock) {
 void Execution::check_faults() {
   const std::size_t slots = parts_->plan.stages.size() * graph::fault_kinds;
   if (slots == 0) return;
-  std::vector<std::uint32_t> words(slots * 2);
   gpu::memory_barrier(graph::bit_buffer_update);
-  parts_->faults.download(0, std::as_writable_bytes(std::span(words)));
+  const std::span<std::byte> bytes = parts_->read_back(parts_->faults, 2 * slots * sizeof(std::uint32_t));
+  const std::span words(reinterpret_cast<const std::uint32_t*>(bytes.data()), 2 * slots);
   std::size_t worst = slots;
   for (std::size_t i = 0; i < slots; ++i)
     if (words[2 * i] > 0 && (worst == slots || words[2 * i + 1] > words[2 * worst + 1])) worst = i;

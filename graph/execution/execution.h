@@ -24,6 +24,7 @@ struct Options {
   std::vector<std::filesystem::path> shader_folders;  // searched in this order, for kernels and their includes
   bool barriers_all = false;                          // a full barrier after every piece of work instead of the plan's own
   bool profile = false;                               // time every piece of work
+  std::filesystem::path program_cache = {};           // folder for compiled programs (gpu/program_cache.h); empty: none
 };
 
 // One piece of work, timed since the last call of take_times().

@@ -166,47 +166,48 @@ gpu::ShaderSource kernel_source(const Plan& plan, int stage, int work, const std
   return source;
 }
 
-Kernel make_kernel(const Plan& plan, int stage_index, int work_index, const Memory& memory, const gpu::Device& device,
-                   std::span<const std::filesystem::path> shader_folders) {
+gpu::ProgramSource program_source(const Plan& plan, int stage_index, int work_index, const graph::DeviceTraits& traits,
+                                  std::span<const std::filesystem::path> shader_folders) {
   const PlannedStage& stage = stage_of(plan, stage_index);
   const graph::Work& work = stage.spec.work[static_cast<std::size_t>(work_index)];
-  const graph::DeviceTraits traits = traits_of(device);
-  Kernel kernel;
-  std::vector<std::pair<gpu::ShaderKind, gpu::ShaderSource>> shaders;
+  gpu::ProgramSource source{{}, stage.label};
   const auto add = [&](const std::string& file, gpu::ShaderKind kind) {
-    shaders.emplace_back(kind, kernel_source(plan, stage_index, work_index, file, kind, traits, shader_folders));
+    source.shaders.emplace_back(kind, kernel_source(plan, stage_index, work_index, file, kind, traits, shader_folders));
   };
-  const auto count = [&](const std::string& domain) { return element_count(domain, plan.environment).value_or(0); };
-  if (const auto* dispatch = std::get_if<Dispatch>(&work)) {
-    kernel.interface = graph::kernel_interface(plan, stage_index, work_index, traits);
-    if (!dispatch->over.empty()) kernel.elements = count(dispatch->over);
-    add(dispatch->kernel, gpu::ShaderKind::compute);
-  } else if (const auto* draw = std::get_if<Draw>(&work)) {
-    kernel.interface = graph::kernel_interface(plan, stage_index, work_index, traits);
-    kernel.elements = count(draw->instances);
-    kernel.vertices = count(draw->vertices);
-    using enum gpu::ShaderKind;
+  using enum gpu::ShaderKind;
+  if (const auto* dispatch = std::get_if<Dispatch>(&work)) add(dispatch->kernel, compute);
+  if (const auto* draw = std::get_if<Draw>(&work))
     for (const gpu::ShaderKind kind : {vertex, tessellation_control, tessellation_evaluation, fragment})
       if (!shader_file(*draw, kind).empty()) add(shader_file(*draw, kind), kind);
+  return source;
+}
+
+Kernel make_kernel(const Plan& plan, int stage_index, int work_index, const Memory& memory, const gpu::Device& device) {
+  const PlannedStage& stage = stage_of(plan, stage_index);
+  const graph::Work& work = stage.spec.work[static_cast<std::size_t>(work_index)];
+  Kernel kernel;
+  const auto count = [&](const std::string& domain) { return element_count(domain, plan.environment).value_or(0); };
+  if (!std::holds_alternative<graph::HostWork>(work))
+    kernel.interface = graph::kernel_interface(plan, stage_index, work_index, traits_of(device));
+  if (const auto* dispatch = std::get_if<Dispatch>(&work); dispatch != nullptr && !dispatch->over.empty())
+    kernel.elements = count(dispatch->over);
+  if (const auto* draw = std::get_if<Draw>(&work)) {
+    kernel.elements = count(draw->instances);
+    kernel.vertices = count(draw->vertices);
     std::vector<const gpu::Texture*> colors;
     for (const std::string& color : draw->colors) colors.push_back(&target_texture(stage, color, memory));
     kernel.target =
         gpu::Framebuffer(colors, draw->depth.empty() ? nullptr : &target_texture(stage, draw->depth, memory), stage.label);
-  } else {
-    return kernel;
   }
-  kernel.program = gpu::Program(shaders, stage.label);
   return kernel;
 }
 
-void run_kernel(const Plan& plan, const graph::Run& run, const Kernel& kernel, const Memory& memory, const gpu::Buffer& parameters,
-                const gpu::Buffer& clock, const gpu::Buffer& faults) {
-  const PlannedStage& stage = stage_of(plan, run.stage);
-  const graph::Work& work = stage.spec.work[static_cast<std::size_t>(run.work)];
+void bind_kernel(const PlannedStage& stage, const Kernel& kernel, const Memory& memory, const StageBlocks& blocks) {
   gpu::use(kernel.program);
-  gpu::bind_uniform(graph::parameter_block_binding, parameters);
-  gpu::bind_uniform(graph::clock_block_binding, clock);
-  if (kernel.interface.fault_binding >= 0) gpu::bind_storage(static_cast<std::uint32_t>(kernel.interface.fault_binding), faults);
+  gpu::bind_uniform(graph::parameter_block_binding, blocks.parameters);
+  gpu::bind_uniform(graph::clock_block_binding, blocks.clock);
+  if (kernel.interface.fault_binding >= 0)
+    gpu::bind_storage(static_cast<std::uint32_t>(kernel.interface.fault_binding), blocks.faults);
   for (const graph::PortBinding& binding : kernel.interface.ports) {
     const auto buffer = static_cast<std::size_t>(stage.buffers[static_cast<std::size_t>(binding.port)]);
     const auto at = static_cast<std::uint32_t>(binding.binding);
@@ -236,6 +237,12 @@ void run_kernel(const Plan& plan, const graph::Run& run, const Kernel& kernel, c
         break;
     }
   }
+}
+
+void run_kernel(const PlannedStage& stage, const graph::Run& run, const Kernel& kernel, const Memory& memory,
+                const StageBlocks& blocks) {
+  bind_kernel(stage, kernel, memory, blocks);
+  const graph::Work& work = stage.spec.work[static_cast<std::size_t>(run.work)];
   if (const auto* dispatch = std::get_if<Dispatch>(&work)) {
     if (!dispatch->indirect.empty()) {
       gpu::dispatch_indirect(0);

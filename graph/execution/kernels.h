@@ -31,7 +31,7 @@ struct Memory {
   std::vector<gpu::Buffer> storages_;
 };
 
-// One dispatch or draw, ready to run. Host work has an empty program.
+// One dispatch or draw. Host work has an empty program.
 struct Kernel {
   gpu::Program program;
   graph::KernelInterface interface;
@@ -40,15 +40,28 @@ struct Kernel {
   std::uint64_t vertices = 0;
 };
 
-Kernel make_kernel(const graph::Plan& plan, int stage, int work, const Memory& memory, const gpu::Device& device,
-                   std::span<const std::filesystem::path> shader_folders);
+// All of it but the program (programs.h).
+Kernel make_kernel(const graph::Plan& plan, int stage, int work, const Memory& memory, const gpu::Device& device);
+
+// What its program is made of; no shaders for host work.
+gpu::ProgramSource program_source(const graph::Plan& plan, int stage, int work, const graph::DeviceTraits& traits,
+                                  std::span<const std::filesystem::path> shader_folders);
 
 // The full source of one kernel, for people: prelude and file with its includes.
 gpu::ShaderSource kernel_source(const graph::Plan& plan, int stage, int work, const std::string& file, gpu::ShaderKind kind,
                                 const graph::DeviceTraits& traits, std::span<const std::filesystem::path> shader_folders);
 
-// Binds everything the kernel touches, and runs it.
-void run_kernel(const graph::Plan& plan, const graph::Run& run, const Kernel& kernel, const Memory& memory,
-                const gpu::Buffer& parameters, const gpu::Buffer& clock, const gpu::Buffer& faults);
+// What all kernels of a stage are bound to beside the buffers of its ports.
+struct StageBlocks {
+  const gpu::Buffer& parameters;
+  const gpu::Buffer& clock;
+  const gpu::Buffer& faults;
+};
+
+// Binds everything the kernel touches.
+void bind_kernel(const graph::PlannedStage& stage, const Kernel& kernel, const Memory& memory, const StageBlocks& blocks);
+// Binds, and runs it.
+void run_kernel(const graph::PlannedStage& stage, const graph::Run& run, const Kernel& kernel, const Memory& memory,
+                const StageBlocks& blocks);
 
 }  // namespace firn::execution

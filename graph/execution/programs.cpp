@@ -1,0 +1,118 @@
+#include "graph/execution/programs.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <thread>
+
+namespace firn::execution {
+namespace {
+
+struct Task {
+  int stage = 0, work = 0;
+  gpu::ProgramSource source;
+};
+
+std::vector<Task> tasks_of(const graph::Plan& plan, const gpu::Device& device,
+                           std::span<const std::filesystem::path> shader_folders) {
+  std::vector<Task> tasks;
+  for (int s = 0; s < static_cast<int>(plan.stages.size()); ++s)
+    for (int w = 0; w < static_cast<int>(plan.stages[static_cast<std::size_t>(s)].spec.work.size()); ++w) {
+      Task task{s, w, program_source(plan, s, w, traits_of(device), shader_folders)};
+      if (!task.source.shaders.empty()) tasks.push_back(std::move(task));
+    }
+  return tasks;
+}
+
+class Maker {
+ public:
+  Maker(const graph::Plan& plan, std::vector<std::vector<Kernel>>& kernels, gpu::Device& device, const gpu::ProgramCache* cache,
+        const std::function<void(int, int)>& bind)
+      : plan_(plan), kernels_(kernels), device_(device), cache_(cache), bind_(bind) {}
+
+  // Of those that the cache has not got.
+  void compile(std::vector<Task> tasks) {
+    if (device_.info().software)
+      compile_on_threads(tasks);
+    else
+      compile_at_once(tasks);
+  }
+
+  [[nodiscard]] bool cached(const Task& task) {
+    if (cache_ == nullptr) return false;
+    std::optional<gpu::Program> program = gpu::cached_program(task.source, *cache_);
+    if (program) kernel(task).program = std::move(*program);
+    return program.has_value();
+  }
+
+ private:
+  [[nodiscard]] Kernel& kernel(const Task& task) {
+    return kernels_[static_cast<std::size_t>(task.stage)][static_cast<std::size_t>(task.work)];
+  }
+
+  // Drivers of hardware have threads of their own.
+  void compile_at_once(const std::vector<Task>& tasks) {
+    std::vector<gpu::ProgramSource> sources;
+    for (const Task& task : tasks) sources.push_back(task.source);
+    std::vector<gpu::Program> programs = gpu::compile_programs(sources, cache_);
+    for (std::size_t i = 0; i < tasks.size(); ++i) kernel(tasks[i]).program = std::move(programs[i]);
+  }
+
+  // Mesa's software renderer compiles when and where it is told to, and makes machine code at the first dispatch, per context; what
+  // another context has made it finds in its own cache on disk. Without that (it hands out no programs then) only the first half
+  // can be shared out.
+  void compile_on_threads(const std::vector<Task>& tasks) {
+    const bool machine_code = device_.info().program_binary_formats > 0;
+    const std::array<std::uint32_t, 3> none{};
+    gpu::Buffer no_groups(sizeof(none), "no groups");
+    no_groups.upload(0, std::as_bytes(std::span(none)));
+    std::vector<std::string> errors(tasks.size());
+    device_.share_out(tasks.size(), std::thread::hardware_concurrency(), [&](std::size_t i) {
+      try {
+        kernel(tasks[i]).program = std::move(gpu::compile_programs(std::span(&tasks[i].source, 1), cache_).front());
+        if (machine_code) make_machine_code(tasks[i], no_groups);
+      } catch (const gpu::ShaderError& error) {
+        errors[i] = error.what();
+      }
+    });
+    std::erase(errors, "");
+    errors.erase(std::unique(errors.begin(), errors.end()), errors.end());
+    if (!errors.empty()) throw gpu::ShaderError(fmt::format("{}", fmt::join(errors, "\n")));
+  }
+
+  // The code depends on what is bound. The driver learns too late that there is nothing to run.
+  void make_machine_code(const Task& task, const gpu::Buffer& no_groups) {
+    const graph::PlannedStage& stage = plan_.stages[static_cast<std::size_t>(task.stage)];
+    if (!std::holds_alternative<graph::Dispatch>(stage.spec.work[static_cast<std::size_t>(task.work)])) return;
+    bind_(task.stage, task.work);
+    gpu::bind_indirect(no_groups);
+    gpu::dispatch_indirect(0);
+  }
+
+  const graph::Plan& plan_;
+  std::vector<std::vector<Kernel>>& kernels_;
+  gpu::Device& device_;
+  const gpu::ProgramCache* cache_;
+  const std::function<void(int, int)>& bind_;
+};
+
+}  // namespace
+
+void make_programs(const graph::Plan& plan, std::vector<std::vector<Kernel>>& kernels, gpu::Device& device,
+                   std::span<const std::filesystem::path> shader_folders, const gpu::ProgramCache* cache,
+                   const std::function<void(int stage, int work)>& bind) {
+  std::vector<Task> tasks = tasks_of(plan, device, shader_folders);
+  const std::size_t all = tasks.size();
+  Maker maker(plan, kernels, device, cache, bind);
+  std::erase_if(tasks, [&](const Task& task) { return maker.cached(task); });
+  spdlog::debug("{} of {} programs are in the cache", all - tasks.size(), all);
+  if (tasks.empty()) return;
+  maker.compile(std::move(tasks));
+  if (cache != nullptr) cache->trim();
+}
+
+}  // namespace firn::execution
