@@ -5,6 +5,7 @@
 #include <map>
 
 #include "app/bench.h"
+#include "app/program_cache.h"
 #include "app/statistics.h"
 
 namespace firn::app {
@@ -79,8 +80,8 @@ BenchRun::BenchRun(const std::string& pipeline, const std::string& scene, const 
   loaded = load(inputs, "");
   plan_for(loaded, inputs, device->info().software);
   if (change) change(loaded);
-  execution = std::make_unique<execution::Execution>(*device, loaded.plan, loaded.registry,
-                                                     execution::Options{shader_folders(), barriers_all, false});
+  execution = std::make_unique<execution::Execution>(
+      *device, loaded.plan, loaded.registry, execution::Options{shader_folders(), barriers_all, false, program_cache_folder()});
   execution->setup();
 }
 

@@ -10,6 +10,7 @@
 
 #include "app/arrays.h"
 #include "app/explain.h"
+#include "app/program_cache.h"
 #include "app/progress.h"
 
 namespace firn::app {
@@ -143,7 +144,7 @@ Side run_side(const std::string& letter, const Inputs& inputs, const std::string
   side.device_bytes = loaded.plan.bytes;
   const scene::Time& time = loaded.problem->scene.time;
   Stopwatch stopwatch(loaded.plan);
-  execution::Execution execution(device, loaded.plan, loaded.registry, {shader_folders(), false, true});
+  execution::Execution execution(device, loaded.plan, loaded.registry, {shader_folders(), false, true, program_cache_folder()});
   Progress progress(until.steps    ? static_cast<double>(*until.steps)
                     : until.frames ? static_cast<double>(*until.frames)
                                    : time.end,

@@ -4,10 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "app/load.h"
+#include "app/program_cache.h"
 #include "app/speed.h"
 #include "app/verbs.h"
 #include "app/version.h"
 #include "gpu/device.h"
+#include "gpu/program_cache.h"
 #include "graph/execution/execution.h"
 
 namespace firn::app {
@@ -21,6 +23,8 @@ std::vector<std::string> verdict(const gpu::DeviceInfo& info) {
                                   info.limits.storage_blocks_compute));
   if (!info.extensions.contains("GL_NV_shader_atomic_float"))
     remarks.push_back("no GL_NV_shader_atomic_float: `accumulate: float` uses a compare-and-swap loop, which is slower");
+  if (info.program_binary_formats == 0)
+    remarks.push_back("the driver hands out no compiled programs: shaders are compiled anew at every start");
   if (info.software) remarks.push_back("a software renderer: everything works, on the CPU; draws cannot be timed by time stamps");
   return remarks;
 }
@@ -38,6 +42,32 @@ nlohmann::json as_json(const gpu::DeviceInfo& info) {
             {"texture_size", limits.texture_size},
             {"group_invocations", limits.group_invocations},
             {"shared_bytes", limits.shared_bytes}}}};
+}
+
+// Where compiled programs are kept, and what is there.
+struct Kept {
+  std::string folder;  // empty: nowhere
+  gpu::ProgramCache::Size size;
+};
+Kept kept_programs() {
+  const std::filesystem::path folder = program_cache_folder();
+  if (folder.empty()) return {};
+  return {folder.string(), gpu::ProgramCache(folder).size()};
+}
+
+nlohmann::json as_json(const Kept& kept) {
+  return {{"folder", kept.folder},
+          {"programs", kept.size.entries},
+          {"bytes", kept.size.bytes},
+          {"most_bytes", gpu::ProgramCache::usual_bytes}};
+}
+
+std::string in_words(const Kept& kept) {
+  if (kept.folder.empty()) return "kept nowhere: FIRN_CACHE is off, or there is no home folder";
+  constexpr double mebibyte = 1 << 20;
+  return fmt::format("{} in {}, {:.1f} MiB of at most {:.0f}", kept.size.entries, kept.folder,
+                     static_cast<double>(kept.size.bytes) / mebibyte,
+                     static_cast<double>(gpu::ProgramCache::usual_bytes) / mebibyte);
 }
 
 bool on_path(const std::string& program) {
@@ -82,10 +112,12 @@ void add_doctor(CLI::App& program, Action& action) {
       } catch (const std::runtime_error& error) {
         remarks.push_back(fmt::format("its speed cannot be measured: {}", error.what()));
       }
+      const Kept kept = kept_programs();
       if (*json) {
-        const nlohmann::json report = {{"version", version()},      {"devices", list},    {"used", as_json(info)},
-                                       {"speed", as_json(speed)},   {"remarks", remarks}, {"ffmpeg", on_path("ffmpeg")},
-                                       {"graphviz", on_path("dot")}};
+        const nlohmann::json report = {{"version", version()},        {"devices", list},
+                                       {"used", as_json(info)},       {"speed", as_json(speed)},
+                                       {"remarks", remarks},          {"compiled_programs", as_json(kept)},
+                                       {"ffmpeg", on_path("ffmpeg")}, {"graphviz", on_path("dot")}};
         fmt::print("{}\n", report.dump(2));
         return static_cast<int>(Status::done);
       }
@@ -101,6 +133,7 @@ void add_doctor(CLI::App& program, Action& action) {
                  in_words(speed.buffer_copy, "B"));
       fmt::print("  multiply-adds of 32-bit floats      {}\n  from one launch to the next         {:.2f} us\n",
                  in_words(speed.multiply_add, "FLOP"), 1e6 * speed.launch);
+      fmt::print("  compiled programs                   {}\n", in_words(kept));
       fmt::print("\nprograms\n  ffmpeg    {}\n  Graphviz  {}\n", on_path("ffmpeg") ? "found" : "not found: no video, pictures only",
                  on_path("dot") ? "found" : "not found: explain writes no svg");
       fmt::print("\nremarks\n");

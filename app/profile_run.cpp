@@ -9,6 +9,7 @@
 
 #include "app/explain.h"
 #include "app/profile.h"
+#include "app/program_cache.h"
 #include "app/statistics.h"
 
 namespace firn::app {
@@ -111,7 +112,7 @@ class Run {
  public:
   Run(const Loaded& loaded, gpu::Device& device)
       : device_(device),
-        execution_(device, loaded.plan, loaded.registry, {shader_folders(), false, false}),
+        execution_(device, loaded.plan, loaded.registry, {shader_folders(), false, false, program_cache_folder()}),
         time_(loaded.problem->scene.time) {
     execution_.setup();
   }

@@ -16,6 +16,7 @@
 #include "app/load.h"
 #include "app/manifest.h"
 #include "app/metrics.h"
+#include "app/program_cache.h"
 #include "app/progress.h"
 #include "app/repeat.h"
 #include "app/run_log.h"
@@ -220,7 +221,8 @@ int run(const RunOptions& given) {
   warn_of_long_steps(scene);
 
   std::optional<RunFolder> folder;  // locked until the film, too, is closed
-  execution::Execution execution(*device, loaded.plan, loaded.registry, {shader_folders(), options.barriers == "all", false});
+  execution::Execution execution(*device, loaded.plan, loaded.registry,
+                                 {shader_folders(), options.barriers == "all", false, program_cache_folder()});
   folder.emplace(start.output, start.claim);
   if (!folder->moved().empty())
     spdlog::info("the earlier run in {} is now in {}; --force would have replaced it", folder->path().string(),

@@ -5,6 +5,7 @@
 
 #include "app/arrays.h"
 #include "app/load.h"
+#include "app/program_cache.h"
 #include "app/try_outputs.h"
 #include "app/try_stage.h"
 #include "app/verbs.h"
@@ -17,7 +18,7 @@ int try_stage(const TryOptions& options) {
   print(trial.diagnostics);
   for (const std::string& note : trial.notes) spdlog::info("{}", note);
   const std::unique_ptr<gpu::Device> device = gpu::Device::open(options.device);
-  execution::Execution execution(*device, trial.plan, trial.registry, {shader_folders(), false, false});
+  execution::Execution execution(*device, trial.plan, trial.registry, {shader_folders(), false, false, program_cache_folder()});
   for (const auto& [buffer, values] : trial.contents) fill_buffer(execution, buffer, values);
   execution.clock().time = options.time;
   for (std::int64_t i = 0; i < options.repeat; ++i) {
