@@ -10,6 +10,7 @@
 #include "app/arrays.h"
 #include "app/checkpoint_files.h"
 #include "app/files.h"
+#include "app/json_text.h"
 #include "app/packed_array.h"
 #include "app/sha256.h"
 #include "graph/carried.h"
@@ -82,7 +83,7 @@ void write_files(const fs::path& folder, const execution::Execution& execution, 
 }
 
 json read_manifest(const fs::path& file) {
-  json manifest = json::parse(read_whole(file, longest_manifest), nullptr, false);
+  json manifest = parse_json(read_whole(file, longest_manifest));
   if (manifest.is_discarded() || !manifest.is_object()) refuse(file, "is no JSON object");
   if (manifest.value("format", json()) != format_name)
     refuse(file, fmt::format("is no manifest of a checkpoint: its \"format\" must be \"{}\"", format_name));

@@ -133,19 +133,29 @@ void compare(const Leaves& before, const Leaves& now, const std::string& what, b
     if (!before.contains(key)) list.push_back(fmt::format("{}{} is new", what, key));
 }
 
+// json::value() throws where a value is not of the default's kind, or what is asked is no object.
+json object_in(const json& value, const char* key) {
+  const auto found = value.find(key);
+  return value.is_object() && found != value.end() && found->is_object() ? *found : json::object();
+}
+std::string label_of(const json& stage) {
+  const json label = stage.value("stage", json());
+  return label.is_string() ? label.get<std::string>() : "";
+}
+
 std::map<std::string, json> stages_of(const json& pipeline) {
   std::map<std::string, json> stages;
   for (const json& stage : pipeline.value("stages", json::array()))
-    if (stage.is_object()) stages[stage.value("stage", "")] = stage;
+    if (stage.is_object()) stages[label_of(stage)] = stage;
   return stages;
 }
 
 Leaves stage_leaves(const json& stage) {
   Leaves leaves;
-  const std::string label = stage.value("stage", "");
-  add_leaves(stage.value("parameters", json::object()), label, leaves);
-  add_leaves(stage.value("buffers", json::object()), label + ".bind", leaves);
-  leaves[label + ".every"] = stage.value("every", json(1)).dump();
+  const std::string label = label_of(stage);
+  add_leaves(object_in(stage, "parameters"), label, leaves);
+  add_leaves(object_in(stage, "buffers"), label + ".bind", leaves);
+  leaves[label + ".every"] = stage.value("every", json(1)).dump(-1, ' ', false, json::error_handler_t::replace);
   return leaves;
 }
 
@@ -188,7 +198,7 @@ std::vector<std::string> differences(const json& before, const json& now) {
   std::vector<std::string> list;
   compare(scene_leaves(before), scene_leaves(now), "", false, list);
   compare(leaves_of(before, "files"), leaves_of(now, "files"), "the file ", true, list);
-  compare_pipelines(before.value("pipeline", json::object()), now.value("pipeline", json::object()), list);
+  compare_pipelines(object_in(before, "pipeline"), object_in(now, "pipeline"), list);
   compare(leaves_of(before, "sizes"), leaves_of(now, "sizes"), "the number of ", false, list);
   // A shader's source holds sizes and constants of the scene, too: told only where nothing else has changed.
   if (list.empty()) compare(leaves_of(before, "shaders"), leaves_of(now, "shaders"), "the shader of ", true, list);

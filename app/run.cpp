@@ -77,7 +77,8 @@ class Session {
     facts_.command = command_line();
     facts_.started = now_in_utc();
     if (start.checkpoint) {
-      facts_.resumed_from = start.checkpoint->manifest.value("resumed_from", std::vector<std::string>());
+      for (const json& before : start.checkpoint->manifest.value("resumed_from", json::array()))
+        if (before.is_string()) facts_.resumed_from.push_back(before);
       facts_.resumed_from.push_back(start.checkpoint->folder.filename().string());
     }
     write();

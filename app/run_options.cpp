@@ -1,6 +1,9 @@
 #include "app/run_options.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
+#include <stdexcept>
 
 #include "app/files.h"
 
@@ -12,9 +15,17 @@ using nlohmann::json;
 
 // Shipped files are found by their names; others where the run was started from.
 std::string found(const std::string& name, const std::string& folder, const std::string& started_in) {
-  if (name.empty() || fs::exists(find_input(name, folder))) return name;
+  std::error_code error;  // a name that no file system takes is no file
+  if (name.empty() || fs::exists(find_input(name, folder), error)) return name;
   const fs::path there = fs::path(started_in) / name;
-  return fs::exists(there) ? there.string() : name;
+  return fs::exists(there, error) ? there.string() : name;
+}
+
+// json would turn -1 and 1e300 into some whole number or other.
+std::uint64_t whole(const json& values, const char* key) {
+  const json& value = values.at(key);
+  if (!value.is_number_unsigned()) throw std::runtime_error(fmt::format("\"{}\" must be a whole number from 0", key));
+  return value.get<std::uint64_t>();
 }
 
 }  // namespace
@@ -56,11 +67,11 @@ RunOptions options_from(const json& values, const std::string& file) {
     values.at("device").get_to(options.device);
     values.at("barriers").get_to(options.barriers);
     values.at("dump").get_to(options.dumps);
-    values.at("checkpoint_every").get_to(options.checkpoint_every);
-    options.keep_checkpoints = values.at("keep_checkpoints").get<std::size_t>();
-    if (values.contains("steps")) options.steps = values.at("steps").get<std::uint64_t>();
-    if (values.contains("frames")) options.frames = values.at("frames").get<std::uint64_t>();
-  } catch (const json::exception& error) {
+    options.checkpoint_every = whole(values, "checkpoint_every");
+    options.keep_checkpoints = whole(values, "keep_checkpoints");
+    if (values.contains("steps")) options.steps = whole(values, "steps");
+    if (values.contains("frames")) options.frames = whole(values, "frames");
+  } catch (const std::exception& error) {
     config::Diagnostics diagnostics;
     diagnostics.error({file, 0, 0}, std::string("does not tell what the run was asked for: ") + error.what());
     throw config::InputError(diagnostics);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/files.h"
+#include "app/json_text.h"
 #include "app/named_files.h"
 
 namespace firn::app {
@@ -15,6 +16,16 @@ using nlohmann::json;
   config::Diagnostics diagnostics;
   diagnostics.error({shown(file), 0, 0}, text);
   throw config::InputError(diagnostics);
+}
+
+// A name that no file system takes is neither.
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+bool is_folder(const fs::path& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
 }
 
 // out/<pipeline>-<scene>, so that runs of several pipelines on several scenes do not mix.
@@ -49,7 +60,7 @@ void follow(const RunOptions& given, RunOptions& kept) {
 RunStart resumed(RunOptions given) {
   RunStart start;
   // `--resume PIPELINE` is meant as `PIPELINE --resume`.
-  if (given.inputs.pipeline.empty() && fs::is_regular_file(find_input(*given.resume, "pipelines")))
+  if (given.inputs.pipeline.empty() && is_file(find_input(*given.resume, "pipelines")))
     given.inputs.pipeline = std::exchange(*given.resume, "");
   fs::path from = *given.resume;
   if (from.empty()) from = !given.output.empty() ? fs::path(given.output) : default_output(given.inputs);
@@ -75,10 +86,10 @@ RunStart resumed(RunOptions given) {
 
 RunStart repeated(const RunOptions& given) {
   RunStart start;
-  const fs::path file = fs::is_directory(given.from) ? fs::path(given.from) / run_manifest : fs::path(given.from);
+  const fs::path file = is_folder(given.from) ? fs::path(given.from) / run_manifest : fs::path(given.from);
   constexpr std::uint64_t longest_manifest = 256 << 20;
   try {
-    start.repeated = json::parse(read_whole(file, longest_manifest), nullptr, false);
+    start.repeated = parse_json(read_whole(file, longest_manifest));
   } catch (const std::runtime_error& error) {
     const std::string text = error.what();
     refuse(file, text.substr(std::min(text.find(": ") + 2, text.size())));

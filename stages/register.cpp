@@ -68,7 +68,7 @@ graph::Registry all_stages(const std::shared_ptr<const Problem>& problem) {
   registry.add(heightfield::support());
   registry.add(heightfield::underside());
   registry.add(io::bodies(), io::writing_bodies(exports));
-  registry.add(io::frames(), io::writing_frames(problem));
+  registry.add(io::frames(), io::writing_frames(exports));
   registry.add(io::grid(), io::writing_grid(exports));
   registry.add(io::heightfield_files(), io::writing_heightfield(exports));
   registry.add(io::particles(), io::writing_particles(exports));

@@ -13,23 +13,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Frames final : public graph::HostStage {
+class FrameFiles {
  public:
-  Frames(std::shared_ptr<const Problem> problem, int compression) : problem_(std::move(problem)), compression_(compression) {}
+  struct Snapshot {
+    int width = 0, height = 0;
+    std::vector<std::byte> texels;
+    [[nodiscard]] std::size_t bytes() const { return texels.size(); }
+  };
 
-  void run(graph::HostContext& context) override {
-    if (problem_->output.empty()) return;
-    const fs::path folder = fs::path(problem_->output) / "frames";
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw std::runtime_error(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()));
+  FrameFiles(const std::shared_ptr<const Problem>& problem, const graph::ParameterValues& parameters)
+      : folder_(fs::path(problem->output) / "frames"), compression_(integer(parameters, "compression")) {}
+
+  static Snapshot take(graph::HostContext& context) {
     const graph::PortView view = context.view("image");
-    const Picture picture = picture_of(context.read("image"), view.width, view.height);
-    write_png(folder / fmt::format("frame_{:04}.png", context.clock().frame), picture, compression_);
+    return {view.width, view.height, context.read("image")};
+  }
+
+  void write(const Snapshot& snapshot, std::uint64_t frame, double) const {
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    if (error) throw std::runtime_error(fmt::format("cannot make the folder {}: {}", folder_.string(), error.message()));
+    write_png(folder_ / fmt::format("frame_{:04}.png", frame), picture_of(snapshot.texels, snapshot.width, snapshot.height),
+              compression_);
   }
 
  private:
-  std::shared_ptr<const Problem> problem_;
+  fs::path folder_;
   int compression_;
 };
 
@@ -50,10 +59,6 @@ graph::StageSpec frames() {
           .work = {graph::HostWork{}}};
 }
 
-graph::HostFactory writing_frames(std::shared_ptr<const Problem> problem) {
-  return [problem = std::move(problem)](const graph::ParameterValues& parameters) {
-    return std::make_unique<Frames>(problem, static_cast<int>(std::get<std::int64_t>(parameters.at("compression"))));
-  };
-}
+graph::HostFactory writing_frames(const Exports& exports) { return exporting<FrameFiles>(exports); }
 
 }  // namespace firn::stages::io

@@ -1,12 +1,11 @@
 #pragma once
 
-#include "graph/registry.h"
-#include "stages/problem.h"
+#include "stages/export.h"
 
 namespace firn::stages::io {
 
 graph::StageSpec frames();
 // Writes below the problem's output folder; nothing where there is none.
-graph::HostFactory writing_frames(std::shared_ptr<const Problem> problem);
+graph::HostFactory writing_frames(const Exports& exports);
 
 }  // namespace firn::stages::io

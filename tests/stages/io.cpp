@@ -120,6 +120,7 @@ TEST_CASE("every frame is a PNG file that reads back equal to the picture") {
   Shot shot(SceneText{}, frames_pipeline("{io.frames: {compression: " + compression + "}}"), small_image, folder.path().string());
   for (const char* name : {"frame_0000.png", "frame_0001.png"}) {
     const Picture picture = shot.frame();
+    shot.execution().flush();  // pictures are written in the background
     CHECK(read_png(folder.path() / "frames" / name) == picture);
     std::vector<float> position = shot.read("position");
     for (std::size_t i = 1; i < position.size(); i += 3) position[i] += 0.2f;
@@ -145,7 +146,10 @@ TEST_CASE("a full disk is an error that names the file, and leaves no half file"
   std::string said;
   {
     const SmallDisk disk(1000);
-    said = complaint([&] { shot.frame(); });
+    said = complaint([&] {
+      shot.frame();
+      shot.execution().finish();
+    });
   }
   INFO(said);
   CHECK(said.find((folder.path() / "frames" / "frame_0000.png").string()) != std::string::npos);
@@ -157,7 +161,10 @@ TEST_CASE("a folder that cannot be made is an error that names it") {
   Folder folder;
   folder.write("frames", "a file where the folder should be");
   Shot shot(SceneText{}, frames_pipeline("io.frames"), small_image, folder.path().string());
-  const std::string said = complaint([&] { shot.frame(); });
+  const std::string said = complaint([&] {
+    shot.frame();
+    shot.execution().finish();
+  });
   INFO(said);
   CHECK(said.find((folder.path() / "frames").string()) != std::string::npos);
 }
