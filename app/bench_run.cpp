@@ -5,6 +5,7 @@
 #include <map>
 
 #include "app/bench.h"
+#include "app/device_profile.h"
 #include "app/program_cache.h"
 #include "app/statistics.h"
 
@@ -78,7 +79,7 @@ BenchRun::BenchRun(const std::string& pipeline, const std::string& scene, const 
   inputs.scene = find_in_bench(scene, "scenes");
   inputs.set = set;
   loaded = load(inputs, "");
-  plan_for(loaded, inputs, device->info().software);
+  plan_for(loaded, inputs, profile_of(*device));
   if (change) change(loaded);
   execution = std::make_unique<execution::Execution>(
       *device, loaded.plan, loaded.registry, execution::Options{shader_folders(), barriers_all, false, program_cache_folder()});

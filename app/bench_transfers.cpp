@@ -22,14 +22,19 @@ struct Form {
 
 std::vector<Form> forms() {
   const std::vector<std::string> scattered{"mpm.clear_grid", "mpm.particles_to_grid", "mpm.grid_forces"};
-  const std::vector<std::string> back{"mpm.grid_to_particles"};
+  const std::vector<std::string> gathered{"mpm.gather_velocities"}, back{"mpm.grid_to_particles"};
   return {
       {"atomics_fixed", "transfers_atomics", {"accumulate=fixed"}, {{"particles_to_grid", scattered}, {"grid_to_particles", back}}},
       {"atomics_float", "transfers_atomics", {"accumulate=float"}, {{"particles_to_grid", scattered}}},
-      {"gathered",
+      {"texture",
        "transfers_gathered",
-       {},
-       {{"particles_to_grid", {"mpm.gather_velocities"}}, {"grid_to_particles", back}, {"sort", {"mpm.sort"}}}},
+       {"form=texture", "nodes=by_cell"},
+       {{"particles_to_grid", gathered}, {"grid_to_particles", back}, {"sort", {"mpm.sort"}}}},
+      {"shared",
+       "transfers_gathered",
+       {"form=shared", "nodes=by_block"},
+       {{"particles_to_grid", gathered}, {"grid_to_particles", back}}},
+      {"subgroup", "transfers_gathered", {"form=subgroup", "nodes=by_block"}, {{"particles_to_grid", gathered}}},
   };
 }
 

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "app/arrays.h"
+#include "app/device_profile.h"
 #include "app/explain.h"
 #include "app/program_cache.h"
 #include "app/progress.h"
@@ -136,7 +137,7 @@ double Side::milliseconds_per_step() const {
 
 Side run_side(const std::string& letter, const Inputs& inputs, const std::string& changes, Loaded loaded, gpu::Device& device,
               const Until& until, bool quiet) {
-  plan_for(loaded, inputs, device.info().software);
+  plan_for(loaded, inputs, profile_of(device));
   Side side;
   side.letter = letter;
   side.pipeline = loaded.pipeline.name;

@@ -25,6 +25,8 @@ std::vector<std::string> verdict(const gpu::DeviceInfo& info) {
     remarks.push_back("no GL_NV_shader_atomic_float: `accumulate: float` uses a compare-and-swap loop, which is slower");
   if (info.program_binary_formats == 0)
     remarks.push_back("the driver hands out no compiled programs: shaders are compiled anew at every start");
+  if (!info.extensions.contains("GL_KHR_shader_subgroup"))
+    remarks.push_back("no GL_KHR_shader_subgroup: `form: subgroup` is refused; `form: shared` needs no extension");
   if (info.software) remarks.push_back("a software renderer: everything works, on the CPU; draws cannot be timed by time stamps");
   return remarks;
 }

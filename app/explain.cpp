@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "app/choice.h"
+#include "app/device_profile.h"
 #include "app/load.h"
 #include "app/verbs.h"
 #include "stages/process.h"
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 struct ExplainOptions {
   Inputs inputs;
-  std::string format = "text", output;
+  std::string format = "text", output, device = "software";
 };
 
 void write_text(const std::string& file, const std::string& text) {
@@ -66,15 +67,21 @@ std::string drawn(const std::string& dot) {
 }
 
 int explain(const ExplainOptions& options) {
-  const Loaded loaded = load(options.inputs, "");
+  Loaded loaded = load(options.inputs, "");
   print(loaded.diagnostics);
+  FormsOfPlan forms{profile_for(options.device), "", {}};
+  forms.reason = plan_for(loaded, options.inputs, forms.device);
+  forms.choices = graph::automatic_choices(loaded.pipeline, loaded.registry, loaded.plan.environment);
   std::string result;
-  if (options.format == "json")
-    result = explain_as_json(loaded.plan).dump(2) + "\n";
-  else if (options.format == "text")
-    result = explain_as_text(loaded.plan, loaded.pipeline.doc);
-  else
+  if (options.format == "json") {
+    nlohmann::json all = explain_as_json(loaded.plan);
+    all["forms"] = forms_as_json(forms);
+    result = all.dump(2) + "\n";
+  } else if (options.format == "text") {
+    result = explain_as_text(loaded.plan, loaded.pipeline.doc) + forms_as_text(forms);
+  } else {
     result = explain_as_dot(loaded.plan, loaded.pipeline.doc);
+  }
   if (options.format == "svg") result = drawn(result);
   if (options.output.empty())
     fmt::print("{}", result);
@@ -100,6 +107,11 @@ void add_explain(CLI::App& program, Action& action) {
   add_inputs(*verb, options->inputs);
   verb->add_option("--format", options->format, "text; json; dot, for Graphviz; svg, a picture that Graphviz draws")
       ->check(one_of({"text", "json", "dot", "svg"}))
+      ->capture_default_str();
+  verb->add_option(
+          "--device", options->device,
+          "What to plan for: software, hardware, subgroups (hardware that has them) are assumed; auto, a number or a part of a "
+          "name is opened and asked, as for run")
       ->capture_default_str();
   verb->add_option("--out", options->output, "File for it (default: stdout)");
   verb->callback([&action, options] { action = [options] { return explain(*options); }; });

@@ -214,11 +214,17 @@ Loaded load(const Inputs& inputs, const std::string& output) {
   return loaded;
 }
 
-void plan_for(Loaded& loaded, const Inputs& inputs, bool software) {
-  if (inputs.repeats != "auto" || software) return;
+std::string plan_for(Loaded& loaded, const Inputs& inputs, const stages::DeviceProfile& device) {
+  const stages::Forms forms = stages::forms_for(device, loaded.plan.environment);
+  graph::Environment environment = loaded.plan.environment;
+  for (const auto& [parameter, form] : forms.choices) environment.choices[parameter] = form;
+  const bool by_device = inputs.repeats == "device" || (inputs.repeats == "auto" && !device.software);
+  if (environment.choices == loaded.plan.environment.choices && by_device == (inputs.repeats == "device")) return forms.reason;
   config::Diagnostics told_before;
-  loaded.plan = graph::compile(loaded.pipeline, loaded.registry, graph::Environment(loaded.plan.environment), told_before,
-                               {.share_memory = inputs.share_memory, .decide_on_device = true});
+  loaded.plan = graph::compile(loaded.pipeline, loaded.registry, environment, told_before,
+                               {.share_memory = inputs.share_memory, .decide_on_device = by_device});
+  config::throw_if_errors(told_before);
+  return forms.reason;
 }
 
 }  // namespace firn::app

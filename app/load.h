@@ -9,6 +9,7 @@
 
 #include "graph/compile.h"
 #include "graph/pipeline.h"
+#include "stages/forms.h"
 #include "stages/problem.h"
 #include "stages/register.h"
 
@@ -40,9 +41,10 @@ struct Loaded {
 // Throws config::InputError with everything that is wrong with pipeline and scene. `output`: folder for what stages write.
 Loaded load(const Inputs& inputs, const std::string& output);
 
-// Plans again where the device calls for another plan than load() made: software renderers read back the end of a repeat in no
-// time, others are not to be waited for.
-void plan_for(Loaded& loaded, const Inputs& inputs, bool software);
+// Plans again where the device calls for another plan than load() made, which is a software renderer's: others take other forms of
+// kernels, and are not to be waited for at the end of a repeat, which software renderers read back in no time. The reason for the
+// forms.
+std::string plan_for(Loaded& loaded, const Inputs& inputs, const stages::DeviceProfile& device);
 
 // The parts of load() that other verbs need by themselves; errors go to `diagnostics`.
 std::vector<config::Override> read_overrides(const std::vector<std::string>& words, config::Diagnostics& diagnostics);  // --set

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "app/choice.h"
+#include "app/device_profile.h"
 #include "app/verbs.h"
 
 namespace firn::app {
@@ -33,7 +34,7 @@ int profile(const ProfileOptions& options) {
     config::throw_if_errors(diagnostics);
   }
   const std::unique_ptr<gpu::Device> device = gpu::Device::open(options.device);
-  plan_for(loaded, options.inputs, device->info().software);
+  plan_for(loaded, options.inputs, profile_of(*device));
   const Profile profile = run_profile(loaded, *device, options.request);
   const std::string text = report(profile, options.format);
   if (options.output.empty()) {

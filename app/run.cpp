@@ -9,6 +9,7 @@
 #include "app/checkpoint.h"
 #include "app/choice.h"
 #include "app/command_line.h"
+#include "app/device_profile.h"
 #include "app/dump.h"
 #include "app/export.h"
 #include "app/files.h"
@@ -213,7 +214,7 @@ int run(const RunOptions& given) {
   config::throw_if_errors(of_dumps);
   const scene::Scene& scene = loaded.problem->scene;
   const std::unique_ptr<gpu::Device> device = gpu::Device::open(options.device);
-  plan_for(loaded, inputs, device->info().software);
+  plan_for(loaded, inputs, profile_of(*device));
   const json identity = identity_of(loaded);
   if (start.checkpoint) check_same(*start.checkpoint, identity, device->info().name);
   spdlog::info("{} on {}", loaded.pipeline.name, scene.name.empty() ? loaded.scene_file : scene.name);

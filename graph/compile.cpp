@@ -111,6 +111,9 @@ class Compiler {
     planned.spec = *spec;
     planned.parameters = parameter_values(use, *spec, diagnostics_);
     keep_what_holds(planned, plan_.environment);
+    for (const std::string& parameter : undecided(planned, *spec))
+      diagnostics_.error(use.place, fmt::format("{}: '{}' is {}, but nothing here chooses for it; say what it is to be", use.label,
+                                                parameter, automatic));
     const bool bindings_known = check_bindings(use, *spec, planned.spec);
     if (!use.enabled || !bindings_known) return;
     check_constants(use, planned.spec);

@@ -167,12 +167,21 @@ std::string parameter_declarations(const Plan& plan, const PlannedStage& stage) 
                      clock_block_binding);
 }
 
-std::string extension_lines(const DeviceTraits& traits) {
-  return fmt::format("{}#define FIRN_FLOAT_ATOMICS {}\n",
-                     traits.float_atomics ? "#extension GL_NV_shader_atomic_float : require\n" : "", traits.float_atomics ? 1 : 0);
+std::string extension_lines(const DeviceTraits& traits, const PlannedStage& stage) {
+  std::string text =
+      fmt::format("{}#define FIRN_FLOAT_ATOMICS {}\n",
+                  traits.float_atomics ? "#extension GL_NV_shader_atomic_float : require\n" : "", traits.float_atomics ? 1 : 0);
+  if (needs_subgroups(stage) && traits.subgroup_size >= least_subgroup)
+    text += fmt::format("#extension {} : require\n#define FIRN_SUBGROUPS 1\n", subgroup_extension);
+  return text;
 }
 
 }  // namespace
+
+bool needs_subgroups(const PlannedStage& stage) {
+  const auto form = stage.parameters.find("form");
+  return form != stage.parameters.end() && form->second == Value(std::string("subgroup"));
+}
 
 std::vector<UsedPort> used_ports(const PlannedStage& stage, const Work& work) {
   std::vector<UsedPort> used;
@@ -259,17 +268,19 @@ KernelInterface kernel_interface(const Plan& plan, int stage_index, int work_ind
 }
 
 std::string compute_prelude(const Plan& plan, int stage, int work, const DeviceTraits& traits) {
-  const auto& dispatch = std::get<Dispatch>(plan.stages[static_cast<std::size_t>(stage)].spec.work[static_cast<std::size_t>(work)]);
+  const PlannedStage& planned = plan.stages[static_cast<std::size_t>(stage)];
+  const auto& dispatch = std::get<Dispatch>(planned.spec.work[static_cast<std::size_t>(work)]);
   return fmt::format(
       "{}\n{}layout(local_size_x = {}) in;\n{}"
       "uint group_number() {{ return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }}\n"
       "uint element_index() {{ return group_number() * gl_WorkGroupSize.x + gl_LocalInvocationID.x; }}\n",
-      traits.version_directive, extension_lines(traits), dispatch.group, kernel_interface(plan, stage, work, traits).declarations);
+      traits.version_directive, extension_lines(traits, planned), dispatch.group,
+      kernel_interface(plan, stage, work, traits).declarations);
 }
 
 std::string draw_prelude(const Plan& plan, int stage, int work, bool fragment, const DeviceTraits& traits) {
-  return fmt::format("{}\n{}{}{}", traits.version_directive, extension_lines(traits), fragment ? "#define FIRN_FRAGMENT 1\n" : "",
-                     kernel_interface(plan, stage, work, traits).declarations);
+  return fmt::format("{}\n{}{}{}", traits.version_directive, extension_lines(traits, plan.stages[static_cast<std::size_t>(stage)]),
+                     fragment ? "#define FIRN_FRAGMENT 1\n" : "", kernel_interface(plan, stage, work, traits).declarations);
 }
 
 std::vector<std::byte> parameter_block(const Plan& plan, int stage) {

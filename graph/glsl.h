@@ -18,6 +18,7 @@
 //   uniform ports   by name; arrays where the count is above 1
 //   image ports     image2D <name> (iimage2D, uimage2D)
 //   optional ports  #define HAS_<PORT> 0 or 1
+//   subgroups       FIRN_SUBGROUPS 1 in stages with `form: subgroup`, where the device has them (lib/subgroups.glsl)
 //   faults          fault(FAULT_NOT_A_NUMBER | FAULT_OVERFLOW | FAULT_LEFT_DOMAIN)
 //   uint element_index()  number of this invocation; may exceed the domain: compare with the count
 
@@ -41,9 +42,15 @@ struct PortBinding {
   int binding = 0;       // storage block, uniform block, texture unit or image unit
 };
 
+// What a stage with `form: subgroup` needs of a device.
+inline constexpr const char* subgroup_extension = "GL_KHR_shader_subgroup_basic";
+inline constexpr int least_subgroup = 16;  // invocations
+bool needs_subgroups(const PlannedStage& stage);
+
 struct DeviceTraits {
   std::string version_directive = "#version 430 core";
   bool float_atomics = false;  // GL_NV_shader_atomic_float
+  int subgroup_size = 0;       // of subgroup_extension in compute shaders; 0: it has none
 };
 
 struct KernelInterface {

@@ -46,6 +46,38 @@ bool holds(const Condition& condition, const PlannedStage& stage, const Environm
   return choice != environment.choices.end() && choice->second == condition.value;
 }
 
+bool is_automatic(const Value& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  return text != nullptr && *text == automatic;
+}
+
+// What the environment has chosen for a parameter that may be `auto`; nothing where it has no choice, or none that is offered.
+const std::string* chosen_for(const ParameterSpec& parameter, const Environment& environment) {
+  const auto offers = [&](const std::string& value) {
+    return std::ranges::find(parameter.choices, value) != parameter.choices.end();
+  };
+  if (parameter.kind != ParameterKind::choice || !offers(automatic)) return nullptr;
+  const auto choice = environment.choices.find(parameter.name);
+  return choice != environment.choices.end() && offers(choice->second) ? &choice->second : nullptr;
+}
+
+void add(const std::vector<Item>& items, const PipelineSpec& pipeline, const Registry& registry, const Environment& environment,
+         std::vector<AutomaticChoice>& list) {
+  Diagnostics told_elsewhere;
+  for (const Item& item : items) {
+    if (const auto* repeat = std::get_if<RepeatUse>(&item.what)) add(repeat->stages, pipeline, registry, environment, list);
+    const auto* use = std::get_if<StageUse>(&item.what);
+    const StageSpec* spec = use != nullptr && use->enabled ? spec_of(*use, pipeline, registry) : nullptr;
+    if (spec == nullptr) continue;
+    const ParameterValues values = parameter_values(*use, *spec, told_elsewhere);
+    for (const ParameterSpec& parameter : spec->parameters)
+      if (const std::string* chosen = chosen_for(parameter, environment)) {
+        const bool left_open = is_automatic(values.at(parameter.name));
+        list.push_back({use->label, parameter.name, left_open ? *chosen : to_string(values.at(parameter.name)), left_open});
+      }
+  }
+}
+
 void add(const std::vector<Item>& items, const PipelineSpec& pipeline, const Registry& registry, const Environment& environment,
          Traffic& traffic) {
   Diagnostics told_later;
@@ -95,6 +127,9 @@ ParameterValues parameter_values(const StageUse& use, const StageSpec& spec, Dia
 }
 
 void keep_what_holds(PlannedStage& stage, const Environment& environment) {
+  for (const ParameterSpec& parameter : stage.spec.parameters)
+    if (Value& value = stage.parameters.at(parameter.name); is_automatic(value))
+      if (const std::string* chosen = chosen_for(parameter, environment)) value = *chosen;
   std::erase_if(stage.spec.ports, [&](const Port& port) { return !holds(port.when, stage, environment); });
   std::erase_if(stage.spec.work, [&](const Work& work) {
     return !holds(std::visit([](const auto& w) { return w.when; }, work), stage, environment);
@@ -102,6 +137,27 @@ void keep_what_holds(PlannedStage& stage, const Environment& environment) {
   for (Work& work : stage.spec.work)
     if (auto* dispatch = std::get_if<Dispatch>(&work))
       std::erase_if(dispatch->arithmetic, [&](const Arithmetic& one) { return !holds(one.when, stage, environment); });
+}
+
+std::vector<std::string> undecided(const PlannedStage& stage, const StageSpec& spec) {
+  std::vector<std::string> names;
+  for (const ParameterSpec& parameter : spec.parameters) {
+    if (parameter.kind != ParameterKind::choice || !is_automatic(stage.parameters.at(parameter.name))) continue;
+    const auto decides = [&](const Condition& condition) { return condition.name == parameter.name; };
+    if (std::ranges::any_of(spec.ports, decides, &Port::when) || std::ranges::any_of(spec.work, [&](const Work& work) {
+          return decides(std::visit([](const auto& w) { return w.when; }, work));
+        }))
+      names.push_back(parameter.name);
+  }
+  return names;
+}
+
+std::vector<AutomaticChoice> automatic_choices(const PipelineSpec& pipeline, const Registry& registry,
+                                               const Environment& environment) {
+  std::vector<AutomaticChoice> list;
+  for (const std::vector<Item>* items : {&pipeline.setup, &pipeline.step, &pipeline.frame})
+    add(*items, pipeline, registry, environment, list);
+  return list;
 }
 
 std::pair<std::string, std::optional<Place>> bound_name(const Port& port, const StageUse& use) {

@@ -6,6 +6,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "graph/plan.h"
 #include "graph/registry.h"
@@ -18,8 +19,22 @@ const StageSpec* spec_of(const StageUse& use, const PipelineSpec& pipeline, cons
 // Every parameter of the spec: as given, else its default. What cannot be read is told.
 ParameterValues parameter_values(const StageUse& use, const StageSpec& spec, config::Diagnostics& diagnostics);
 
-// Takes out the ports and work whose conditions do not hold with the stage's parameters.
+// The value by which a choice parameter leaves the choice to the environment, which has it under the parameter's name.
+inline constexpr const char* automatic = "auto";
+
+// Puts what the environment has chosen in the place of `auto`, then takes out the ports and work whose conditions do not hold.
 void keep_what_holds(PlannedStage& stage, const Environment& environment);
+
+// Parameters still at `auto` that decide about ports or work of the spec: nothing here chooses for them.
+std::vector<std::string> undecided(const PlannedStage& stage, const StageSpec& spec);
+
+// Parameters that the environment would choose for, in the order of the pipeline, with what they are.
+struct AutomaticChoice {
+  std::string stage, parameter, value;  // stage: label
+  bool chosen = true;                   // by the environment; else the pipeline says so
+};
+std::vector<AutomaticChoice> automatic_choices(const PipelineSpec& pipeline, const Registry& registry,
+                                               const Environment& environment);
 
 // The buffer that a port is to have, and where the pipeline says so (nowhere: its own name).
 std::pair<std::string, std::optional<Place>> bound_name(const Port& port, const StageUse& use);

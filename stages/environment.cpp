@@ -6,6 +6,7 @@
 #include "scene/mesh_solid.h"
 #include "scene/solid.h"
 #include "stages/body_distance.h"
+#include "stages/forms.h"
 #include "stages/heightfield_ports.h"
 #include "stages/mpm_ports.h"
 #include "stages/problem.h"
@@ -229,6 +230,7 @@ graph::Environment environment(const Problem& problem) {
   result.listed_by = {{"grid_blocks", "active_blocks"}};
   result.choices["snow"] = scene.domain && !scene.snow.empty() ? "particles" : "none";
   result.choices["time_step"] = scene.time.dt ? "fixed" : "auto";
+  result.choices.merge(forms_for({}, result).choices);  // until a device is known
   return result;
 }
 

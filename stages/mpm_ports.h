@@ -34,6 +34,8 @@ Port material_plastic(Access access, Usage usage = Usage::storage);
 // All nodes of the grid, or those of stored blocks (block_nodes): 64 a block, x fastest, in the order of active_blocks.
 inline constexpr const char* all_nodes = "nodes";
 inline constexpr const char* block_nodes = "grid_blocks*64";
+// Sums over a block's particles: 7 kinds for 7 x 7 x 7 nodes (shaders/lib/block_sums.glsl).
+inline constexpr const char* block_sum_values = "grid_blocks*2401";
 Port grid_mass(Access access, Usage usage = Usage::storage, const char* nodes = all_nodes);
 Port grid_velocity(Access access, Usage usage = Usage::storage, const char* nodes = all_nodes);
 Port grid_velocity_before(Access access, Usage usage = Usage::storage, const char* nodes = all_nodes);

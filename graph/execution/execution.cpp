@@ -253,7 +253,9 @@ void Execution::Parts::work(const graph::Run& run, std::uint64_t turn) {
 }
 
 Execution::Execution(gpu::Device& device, Plan plan, const graph::Registry& registry, Options options) {
-  if (const std::vector<std::string> missing = shortcomings(plan, device.info().limits); !missing.empty())
+  std::vector<std::string> missing = shortcomings(plan, device.info().limits);
+  for (std::string& extension : missing_extensions(plan, traits_of(device))) missing.push_back(std::move(extension));
+  if (!missing.empty())
     throw gpu::DeviceError(fmt::format("{} cannot run {}:\n  {}", device.info().name, plan.pipeline, fmt::join(missing, "\n  ")));
   parts_ = std::make_unique<Parts>(device, std::move(plan), registry, std::move(options));
 }

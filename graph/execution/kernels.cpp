@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "gpu/subgroups.h"
 #include "graph/repeats.h"
 
 namespace firn::execution {
@@ -112,7 +113,7 @@ const gpu::Texture& target_texture(const PlannedStage& stage, const std::string&
 }  // namespace
 
 graph::DeviceTraits traits_of(const gpu::Device& device) {
-  return {device.version_directive(), device.has("GL_NV_shader_atomic_float")};
+  return {device.version_directive(), device.has("GL_NV_shader_atomic_float"), gpu::subgroup_size(device)};
 }
 
 Memory::Memory(const Plan& plan, const gpu::Device&) {

@@ -16,6 +16,9 @@ namespace firn::execution {
 
 graph::DeviceTraits traits_of(const gpu::Device& device);
 
+// Extensions of GLSL that stages of the plan need and the device has not, one sentence each; empty: none.
+std::vector<std::string> missing_extensions(const graph::Plan& plan, const graph::DeviceTraits& traits);
+
 // Every buffer and texture of a plan, and the buffer textures that its kernels read through.
 struct Memory {
   Memory(const graph::Plan& plan, const gpu::Device& device);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "graph/execution/execution.h"
+#include "graph/execution/kernels.h"
 #include "graph/glsl.h"
 
 namespace firn::execution {
@@ -45,6 +46,20 @@ std::vector<std::string> shortcomings(const Plan& plan, const gpu::Limits& limit
                                       texels, limits.texture_buffer_texels));
       }
   }
+  return found;
+}
+
+std::vector<std::string> missing_extensions(const Plan& plan, const graph::DeviceTraits& traits) {
+  std::vector<std::string> found;
+  for (const PlannedStage& stage : plan.stages)
+    if (graph::needs_subgroups(stage) && traits.subgroup_size < graph::least_subgroup)
+      found.push_back(
+          traits.subgroup_size == 0
+              ? fmt::format("{} with 'form: subgroup' needs {}, which the device has not; 'form: shared' needs no extension",
+                            stage.label, graph::subgroup_extension)
+              : fmt::format("{} with 'form: subgroup' needs subgroups of {} invocations; the device's have {}; 'form: "
+                            "shared' needs none",
+                            stage.label, graph::least_subgroup, traits.subgroup_size));
   return found;
 }
 

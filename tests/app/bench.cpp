@@ -59,12 +59,23 @@ TEST_CASE("what a machine cannot do is told, and does not fail the rest", "[app]
 
 TEST_CASE("transfers are measured by form and by the order of particles", "[app]") {
   const json report = benched("transfers/grid_to_particles");
-  CHECK(names_of(report.at("results")) == std::set<std::string>{"transfers/grid_to_particles/atomics_fixed/sorted",
-                                                                "transfers/grid_to_particles/atomics_fixed/random",
-                                                                "transfers/grid_to_particles/gathered/sorted",
-                                                                "transfers/grid_to_particles/gathered/random"});
+  CHECK(names_of(report.at("results")) ==
+        std::set<std::string>{"transfers/grid_to_particles/atomics_fixed/sorted",
+                              "transfers/grid_to_particles/atomics_fixed/random", "transfers/grid_to_particles/texture/sorted",
+                              "transfers/grid_to_particles/texture/random", "transfers/grid_to_particles/shared/sorted",
+                              "transfers/grid_to_particles/shared/random"});
   for (const json& result : report.at("results"))
     CHECK(result.at("rate").get<double>() * result.at("seconds").get<double>() == Approx(62500).epsilon(0.03));
+}
+
+TEST_CASE("every form of particles to grid is measured, or why it cannot be is told", "[app]") {
+  const json report = benched("transfers/particles_to_grid/subgroup");
+  if (report.at("results").empty()) {
+    REQUIRE(report.at("not_possible").size() == 2);
+    for (const json& one : report.at("not_possible"))
+      CHECK(one.at("reason").get<std::string>().find("GL_KHR_shader_subgroup_basic") != std::string::npos);
+  }
+  CHECK(benched("transfers/particles_to_grid/shared").at("results").size() == 2);
 }
 
 TEST_CASE("planning takes no device, and its time grows with the stages, not with their square", "[app]") {

@@ -134,7 +134,8 @@ TEST_CASE("the JSON of explain has the documented shape, and is enough to check 
     for (const char* who : {"host", "device"}) {
       CAPTURE(pipeline, who);
       const json text = explained(pipeline, {"--repeats", who});
-      CHECK(keys(text) == std::set<std::string>{"pipeline", "phases", "buffers", "memory", "bindings", "unhindered"});
+      CHECK(keys(text) == std::set<std::string>{"pipeline", "phases", "buffers", "memory", "bindings", "unhindered", "forms"});
+      CHECK(keys(text.at("forms")) == std::set<std::string>{"device", "assumed", "reason", "choices"});
       CHECK(keys(text.at("phases")) == std::set<std::string>{"setup", "step", "frame"});
       ReadPlan read(text);
       CHECK(read.barriers > 3);
@@ -142,6 +143,32 @@ TEST_CASE("the JSON of explain has the documented shape, and is enough to check 
       CHECK(each_is_needed(read.plan, read.plan.step));
       for (const json& access : text.at("unhindered")) CHECK_FALSE(access.at("why").get<std::string>().empty());
     }
+}
+
+TEST_CASE("explain tells which forms of kernels a device calls for, and which it has assumed", "[app]") {
+  const auto forms = [](const firn::test::Words& more) {
+    const json told = explained("mpm_snow", more).at("forms");
+    std::set<std::string> values;
+    for (const json& choice : told.at("choices")) {
+      CHECK(keys(choice) == std::set<std::string>{"stage", "parameter", "value", "automatic"});
+      values.insert(choice.at("value").get<std::string>() + (choice.at("automatic").get<bool>() ? "" : " (told)"));
+    }
+    CHECK(told.at("reason").get<std::string>().size() > 20);
+    CHECK(told.at("assumed").get<bool>() == (more.empty() || more[1] != "auto"));
+    return values;
+  };
+  using Values = std::set<std::string>;
+  CHECK(forms({}) == Values{"texture", "by_cell"});
+  CHECK(forms({"--device", "hardware"}) == Values{"shared", "by_block"});
+  CHECK(forms({"--device", "subgroups"}) == Values{"subgroup", "by_block"});
+  CHECK(forms({"--device", "hardware", "--set", "mpm.gather_velocities.form=texture"}) == Values{"texture (told)", "by_block"});
+  const Outcome text = run_firn({"explain", "mpm_snow", "--device", "hardware"});
+  CHECK(text.out.find("forms of kernels for hardware (assumed") != std::string::npos);
+  CHECK(text.out.find("mpm/gather_block_sums.comp") != std::string::npos);
+  CHECK(text.out.find("mpm/gather_pack.comp") == std::string::npos);
+  // The one that runs here.
+  CHECK_FALSE(forms({"--device", "auto"}).empty());
+  CHECK(run_firn({"explain", "mpm_snow", "--device", "no such device"}).status == 3);
 }
 
 TEST_CASE("memory in explain is the sum of what buffers live in, each counted once", "[app]") {

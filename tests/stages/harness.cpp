@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "app/arrays.h"
+#include "stages/forms.h"
 #include "stages/mpm_ports.h"
 
 namespace firn::test {
@@ -91,6 +92,7 @@ graph::Environment grid_environment(const GridSetup& setup) {
                       {"mass_scale", ElementType::float1, scale(setup.mass_bound), "1/kg", ""},
                       {"momentum_scale", ElementType::float1, scale(setup.momentum_bound), "s/(kg m)", ""},
                       {"crowd", ElementType::float1, setup.crowd, "1", ""}};
+  result.choices = stages::forms_for({}, result).choices;
   return result;
 }
 

@@ -56,11 +56,11 @@ TEST_CASE("gather_velocities gives the reference's mass and velocities, and stor
   INFO("seed " << seed());
   const RandomSnow snow = lumps(seed(), 1500);
   const std::vector<Matrix3d> stress = symmetric_stress(snow);
-  for (const Case& kernel : kernels) {
-    CAPTURE(kernel.kernel);
-    const Arrays out =
-        run(snow, std::string("  - mpm.sort: {nodes: active}\n  - mpm.gather_velocities: {kernel: ") + kernel.kernel + "}\n",
-            gathered(snow), 2);
+  for (const auto& [kernel, form] :
+       {std::pair{kernels[0], "texture"}, {kernels[1], "texture"}, {kernels[0], "shared"}, {kernels[1], "shared"}}) {
+    CAPTURE(kernel.kernel, form);
+    const std::string with = std::string("{kernel: ") + kernel.kernel + ", form: " + form + "}\n";
+    const Arrays out = run(snow, "  - mpm.sort: {nodes: active}\n  - mpm.gather_velocities: " + with, gathered(snow), 2);
     const ref::GridState expected = solved(snow, stress, kernel.reference);
     CHECK(relative_error(whole(out, "grid_mass", snow.grid.nodes), flat(expected.mass)) <= 1e-5);
     const auto momentum = [&](const std::vector<float>& mass, std::vector<float> velocity) {
@@ -84,7 +84,8 @@ TEST_CASE("stored blocks and the whole grid give particles the same velocities a
       snow.arrays({"body_kind", "body_size", "body_position", "body_orientation", "body_velocity", "body_spin", "body_friction"});
   const std::vector<Matrix3d> stress = symmetric_stress(snow);
   for (const Case& kernel : kernels)
-    for (const char* by : {"mpm.grid_to_particles: {nodes: active, ", "mpm.grid_to_particles: {nodes: by_cell, "}) {
+    for (const char* by : {"mpm.grid_to_particles: {nodes: active, ", "mpm.grid_to_particles: {nodes: by_cell, ",
+                           "mpm.grid_to_particles: {nodes: by_block, "}) {
       CAPTURE(kernel.kernel, by);
       const std::string with = std::string("kernel: ") + kernel.kernel + "}\n";
       Arrays in = gathered(snow);
