@@ -1,14 +1,22 @@
 // What a triangle of a box or a mesh passes through in a step: itself before and now, and what its edges sweep, two triangles each. Of
-// that, the lowest surface is the lowest of the whole. Eight triangles per facet; those that cannot be seen are left out: what a resting body
-// would sweep, and facets of boxes that face up, for boxes are closed and every edge at their underside belongs to a facet that faces down. A face
-// of a box is two facets; their common edge, the longest, lies within it, and what it sweeps without turning lies within what the face sweeps.
+// that, the lowest surface is the lowest of the whole. Eight triangles per facet; those that cannot be seen are left out.
 #include "heightfield/underside_clip.glsl"
 #include "lib/body_pose.glsl"
 
 flat out int body;
 flat out vec3 a, b, c;
 
-bool faces_up(vec4 turn, vec3 own_normal) { return turned(turn, own_normal).y >= 0.0; }
+// Boxes are closed: unless they turn, every edge at their underside belongs to a facet that faces down. And an edge sweeps something of the outside
+// only if of the two faces beside it, which are at right angles, one goes ahead and the other does not; the common edge of the two facets of a
+// face, the longest of each, never does.
+bool hidden_in_box(Pose before, Pose now, vec3 normal, bool sweeps, vec3 first, vec3 second, vec3 across) {
+  if (distance(before.turn, now.turn) > 1.0e-6) return false;
+  if (turned(before.turn, normal).y >= 0.0 && turned(now.turn, normal).y >= 0.0) return true;
+  if (!sweeps) return false;
+  vec3 way = turned_back(now.turn, now.place - before.place);
+  bool ahead = dot(normal, way) > 0.0, beside_ahead = dot(cross(second - first, normal), way) > 0.0;
+  return ahead == beside_ahead || distance(first, second) > max(distance(first, across), distance(second, across));
+}
 
 void main() {
   int facet = gl_InstanceID, part = gl_VertexID / 3;
@@ -22,11 +30,9 @@ void main() {
   a = placed(part == 1 ? now : before, first);
   b = placed(middle, second);
   c = placed(part == 0 ? before : now, part < 2 ? p2 : odd ? first : second);
-  bool sweeps = part > 1, turns = before.turn != now.turn, box = body_kind_at(body) == 2;
   vec3 across = from == 0 ? p2 : from == 1 ? p0 : p1;
-  bool longest = distance(first, second) > max(distance(first, across), distance(second, across));
-  if (!turns && before.place == now.place && part != 1 || box && faces_up(before.turn, normal) && faces_up(now.turn, normal) ||
-      box && sweeps && !turns && longest) {
+  bool rests = before.place == now.place && before.turn == now.turn;
+  if (rests && part != 1 || body_kind_at(body) == 2 && hidden_in_box(before, now, normal, part > 1, first, second, across)) {
     gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
     return;
   }
