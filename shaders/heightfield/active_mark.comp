@@ -1,4 +1,5 @@
-// One group per body: stamps the tiles that its bounding box covers, now or where it was before, and one cell around.
+// One group per body: stamps the tiles that its bounding box covers, now or where it was before, and one cell around; of balls, those that the
+// ball reaches.
 #include "lib/cell_tiles.glsl"
 #include "lib/body_pose.glsl"
 
@@ -9,6 +10,11 @@ vec3 half_extent(int body, vec4 turn) {
   if (kind == 1) return vec3(size.x);
   if (kind == 3) return abs(turned(turn, vec3(0.0, size.y, 0.0))) + size.x;
   return abs(turned(turn, vec3(size.x, 0.0, 0.0))) + abs(turned(turn, vec3(0.0, size.y, 0.0))) + abs(turned(turn, vec3(0.0, 0.0, size.z)));
+}
+
+float distance_to_way(vec2 from, vec2 start, vec2 way) {
+  float long_2 = dot(way, way);
+  return length(from - start - (long_2 > 0.0 ? clamp(dot(from - start, way) / long_2, 0.0, 1.0) : 0.0) * way);
 }
 
 void main() {
@@ -24,8 +30,12 @@ void main() {
   ivec2 first = ivec2(clamp(from, vec2(0.0), most - 1.0)) / tile_edge, last = ivec2(clamp(to, vec2(0.0), most - 1.0)) / tile_edge;
   ivec2 extent = last - first + 1;
   int t = int(gl_LocalInvocationID.x);
+  vec2 start = (before.place.xz - field_min.xz) / field_cell, way = (now.place.xz - before.place.xz) / field_cell;
+  bool ball = body_kind_at(body) == 1;
+  float reach = reach_now.x / field_cell + 2.0 + 0.75 * float(tile_edge);  // to the middles of tiles, which lie less than 0.75 edges from their corners
   if (t < extent.x * extent.y) do {
-    tile_stamp[(first.y + t / extent.x) * tiles_width + first.x + t % extent.x] = step + 2u;
+    ivec2 tile = first + ivec2(t % extent.x, t / extent.x);
+    if (!ball || distance_to_way(float(tile_edge) * (vec2(tile) + 0.5), start, way) <= reach) tile_stamp[tile.y * tiles_width + tile.x] = step + 2u;
     t += int(gl_WorkGroupSize.x);
   } while (t < extent.x * extent.y);
 }
