@@ -295,14 +295,16 @@ TEST_CASE("work is shared out to contexts that see the same objects") {
 
 TEST_CASE("what fails in work that is shared out is thrown once all is done, the first of it") {
   const auto device = Device::open();
+  const unsigned threads = GENERATE(1u, 3u);
+  CAPTURE(threads);
   std::atomic<int> done{0};
   const std::string message = message_of<std::runtime_error>([&] {
-    device->share_out(16, 3, [&](std::size_t i) {
+    device->share_out(16, threads, [&](std::size_t i) {
       ++done;
       if (i == 5 || i == 11) throw std::runtime_error("number " + std::to_string(i));
     });
   });
   CHECK(message == "number 5");
   CHECK(done == 16);
-  CHECK_NOTHROW(device->share_out(0, 3, [](std::size_t) {}));
+  CHECK_NOTHROW(device->share_out(0, threads, [](std::size_t) {}));
 }
