@@ -35,7 +35,7 @@ class Maker {
       : plan_(plan), kernels_(kernels), device_(device), cache_(cache), bind_(bind) {}
 
   // Of those that the cache has not got.
-  void compile(std::vector<Task> tasks) {
+  void compile(const std::vector<Task>& tasks) {
     if (device_.info().software)
       compile_on_threads(tasks);
     else
@@ -111,7 +111,7 @@ void make_programs(const graph::Plan& plan, std::vector<std::vector<Kernel>>& ke
   std::erase_if(tasks, [&](const Task& task) { return maker.cached(task); });
   spdlog::debug("{} of {} programs are in the cache", all - tasks.size(), all);
   if (tasks.empty()) return;
-  maker.compile(std::move(tasks));
+  maker.compile(tasks);
   if (cache != nullptr) cache->trim();
 }
 
