@@ -1,8 +1,9 @@
-// What libFuzzer calls. FIRN_FUZZ_TARGET: the function of inputs.h that is fuzzed.
+// What libFuzzer calls. FIRN_FUZZ_TARGET: the function of inputs.h or files.h that is fuzzed.
 
 #include <cstddef>
 #include <cstdint>
 
+#include "tests/fuzz/files.h"
 #include "tests/fuzz/inputs.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

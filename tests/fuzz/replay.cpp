@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/catch.h"
+#include "tests/fuzz/files.h"
 #include "tests/fuzz/inputs.h"
 
 namespace {
@@ -41,3 +42,8 @@ void replay(const std::string& target, void (*check)(const firn::fuzz::Sandbox&,
 TEST_CASE("no pipeline of the corpus crashes, hangs or leaves a hazard") { replay("pipeline", firn::fuzz::check_pipeline); }
 TEST_CASE("no scene of the corpus crashes or hangs") { replay("scene", firn::fuzz::check_scene); }
 TEST_CASE("no stage file of the corpus crashes, hangs or leaves a hazard") { replay("stage", firn::fuzz::check_stage); }
+TEST_CASE("no array of the corpus crashes or hangs") { replay("array", firn::fuzz::check_array); }
+TEST_CASE("no image of the corpus crashes or hangs") { replay("image", firn::fuzz::check_image); }
+TEST_CASE("no mesh of the corpus crashes or hangs") { replay("mesh", firn::fuzz::check_mesh); }
+TEST_CASE("no checkpoint of the corpus crashes or hangs") { replay("checkpoint", firn::fuzz::check_checkpoint); }
+TEST_CASE("no manifest of a run of the corpus crashes or hangs") { replay("manifest", firn::fuzz::check_manifest); }

@@ -1,6 +1,6 @@
 // Writes what the fuzzers start from: everything that comes with Firn, the bad files of the other tests, and the words of the
 // formats.
-//   fuzz_seeds FOLDER  ->  FOLDER/pipeline, FOLDER/scene, FOLDER/stage; FOLDER/pipeline.dict and so on
+//   fuzz_seeds FOLDER  ->  FOLDER/pipeline, FOLDER/scene, ..., FOLDER/manifest; FOLDER/pipeline.dict and so on
 
 #include <cstdio>
 #include <filesystem>
@@ -85,6 +85,52 @@ std::set<std::string> words_of_schema(const fs::path& file) {
   return words;
 }
 
+std::string npy(const std::string& kind, const std::string& shape, const std::string& data) {
+  const std::string header = "{'descr': '" + kind + "', 'fortran_order': False, 'shape': " + shape + ", }\n";
+  return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size()) + std::string(1, '\0') + header + data;
+}
+
+// What scenes name and runs leave, small and good.
+void write_files(const fs::path& folder) {
+  const std::string corners = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n", faces = "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+  const std::string twelve_floats = std::string("\0\0\x80\x3f", 4) + std::string(44, '\0');
+  write(folder / "array" / "points.npy", npy("<f4", "(2, 6)", twelve_floats));
+  write(folder / "array" / "map.npy", npy("<f8", "(2, 3)", twelve_floats));
+  write(folder / "array" / "whole.npy", npy("<i4", "(12,)", twelve_floats));
+  write(folder / "image" / "floats.f32", twelve_floats.substr(0, 36));
+  // 2 x 2 pixels of grey in 8 bits.
+  const std::string png_head("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\0\x02\0\0\0\x02\x08\0\0\0\0\x57\xdd\x52\xf8", 33);
+  const std::string png_data("\0\0\0\x0eIDAT\x78\x9c\x63\x60\x64\x62\x60\x66\x01\0\0\x1d\0\x0b\x0d\xb5\x52\x06", 26);
+  write(folder / "image" / "grey.png", png_head + png_data + std::string("\0\0\0\0IEND\xae\x42\x60\x82", 12));
+  write(folder / "mesh" / "tetrahedron.obj", "ov 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const std::string head =
+      "element vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4\nproperty list uchar int "
+      "vertex_indices\nend_header\n";
+  write(folder / "mesh" / "text.ply", "pply\nformat ascii 1.0\n" + head + corners + faces);
+  std::string binary = "pply\nformat binary_little_endian 1.0\n" + head + twelve_floats;
+  for (int face = 0; face < 4; ++face) binary += std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13);
+  write(folder / "mesh" / "binary.ply", binary);
+  write(folder / "mesh" / "text.stl",
+        "ssolid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n");
+  write(folder / "mesh" / "binary.stl", "s" + std::string(80, ' ') + std::string("\1\0\0\0", 4) + std::string(12, '\0') +
+                                            twelve_floats.substr(0, 36) + std::string(2, '\0'));
+  const std::string inputs =
+      R"({"pipeline": "mpm_snow", "scene": "", "set": ["k=1"], "disable": [], "replace": [], "image": "64x64", "share_memory": true, )"
+      R"("repeats": "auto", "device": "auto", "barriers": "derived", "dump": ["position=p.npy"], "checkpoint_every": 5, )"
+      R"("keep_checkpoints": 3, "started_in": "/", "steps": 4})";
+  const std::string pipeline =
+      R"({"name": "a", "stages": [{"stage": "mpm.seed", "parameters": {"a": [1, 2]}, "buffers": {"b": "c"}}], "step": [1]})";
+  write(folder / "manifest" / "run.json",
+        R"({"inputs": )" + inputs + R"(, "outputs": {"video.mp4": "00"}, "pipeline": )" + pipeline +
+            R"(, "scene": {"resolved": "firn: 1\nname: a\n"}, "files": {"a": "b"}, "sizes": {"particles": 3}, "shaders": {}})");
+  write(folder / "checkpoint" / "manifest",
+        R"(m{"format": "firn checkpoint", "version": 1, "step": 4, "frame": 1, "time": 0.5, "dt": 0.1, "identity": {"pipeline": )" +
+            pipeline + R"(}, "inputs": )" + inputs + R"(, "buffers": [{"name": "position"}]})");
+  write(folder / "checkpoint" / "list", "h" + std::string(64, '0') + "  manifest.json\n");
+  write(folder / "checkpoint" / "array", "a\x28\xb5\x2f\xfd");
+  write(folder / "checkpoint" / "plain", "p" + npy("<f4", "(4, 3)", twelve_floats));
+}
+
 }  // namespace
 
 int main(int count, char** words) {
@@ -93,7 +139,9 @@ int main(int count, char** words) {
     return 2;
   }
   const fs::path folder = words[1], shipped = fs::path(FIRN_SOURCE_DIR) / "pipelines";
-  for (const char* target : {"pipeline", "scene", "stage"}) fs::create_directories(folder / target);
+  for (const char* target : {"pipeline", "scene", "stage", "array", "image", "mesh", "checkpoint", "manifest"})
+    fs::create_directories(folder / target);
+  write_files(folder);
   copy(shipped, ".yaml", folder / "pipeline");
   copy(shipped / "examples", ".yaml", folder / "pipeline");
   copy(shipped / "scenes", ".yaml", folder / "scene");
