@@ -43,7 +43,9 @@ Words two_steps(const Folder& folder, const std::string& name) {
 TEST_CASE("FIRN_CACHE comes before XDG_CACHE_HOME, and that before the home folder", "[app]") {
   const Folder folder;
   const auto told = [&](const std::string& cache, const std::string& xdg, const std::string& home) {
-    const Outcome outcome = run_firn({"doctor", "--json"}, {{"FIRN_CACHE", cache}, {"XDG_CACHE_HOME", xdg}, {"HOME", home}});
+    const Outcome outcome =
+        run_firn({"doctor", "--json"},
+                 {{"FIRN_CACHE", cache}, {"XDG_CACHE_HOME", xdg}, {"HOME", home}, {"MESA_SHADER_CACHE_DIR", folder / "mesa"}});
     REQUIRE(outcome.status == 0);
     return nlohmann::json::parse(outcome.out).at("compiled_programs").at("folder").get<std::string>();
   };
