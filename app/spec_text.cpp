@@ -149,7 +149,8 @@ json spec_json(const graph::StageSpec& spec, const graph::Environment& known) {
                  {"constants", json::array()},
                  {"faults", json::array()},
                  {"work", json::array()},
-                 {"sets_time_step", spec.sets_time_step}};
+                 {"sets_time_step", spec.sets_time_step},
+                 {"resizes", spec.resizes.empty() ? json() : json(spec.resizes)}};
   for (const graph::Port& port : spec.ports) result["ports"].push_back(port_json(port));
   for (const graph::ParameterSpec& parameter : spec.parameters) result["parameters"].push_back(parameter_json(parameter));
   for (const std::string& name : spec.constants) {
@@ -208,6 +209,7 @@ void print_spec(const graph::StageSpec& spec, const graph::Environment& known) {
     fmt::print("\nEnds the run at: {}\n", fmt::join(faults, ", "));
   }
   if (spec.sets_time_step) fmt::print("\nSets the length of the step\n");
+  if (!spec.resizes.empty()) fmt::print("\nMakes {} come and go\n", spec.resizes);
 }
 
 }  // namespace firn::app

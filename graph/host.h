@@ -42,6 +42,13 @@ class HostContext {
   [[nodiscard]] virtual const Clock& clock() const = 0;
   virtual void set_time_step(double dt) = 0;  // only for specs with sets_time_step
 
+  // Elements come and go, of the domain that the spec `resizes`; the plan has room for as many as there were at first. Every buffer
+  // over the domain that is kept between steps goes along, whether it is a port of this stage or not.
+  virtual void keep(std::span<const std::uint32_t> elements) = 0;  // ascending; the others go, the order stays
+  virtual void append(std::uint64_t count) = 0;                    // behind those that are there; zeros
+  // Elements from `first` on.
+  virtual void write_from(std::string_view port, std::uint64_t first, std::span<const std::byte> data) = 0;
+
   // Unpadded values: `components(type)` scalars per element.
   std::vector<float> read_floats(std::string_view port);
   std::vector<std::int32_t> read_integers(std::string_view port);

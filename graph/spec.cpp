@@ -121,6 +121,11 @@ std::vector<std::string> problems(const StageSpec& spec) {
       found.push_back(fmt::format("parameter {}: the name is taken", parameter.name));
   }
 
+  if (!spec.resizes.empty() &&
+      (std::ranges::none_of(spec.ports, [&](const Port& port) { return port.domain == spec.resizes; }) ||
+       std::ranges::none_of(spec.work, [](const Work& work) { return std::holds_alternative<HostWork>(work); })))
+    found.push_back(fmt::format("resizes {}: needs a port over it, and work on the host", spec.resizes));
+
   const auto need_port = [&](const std::string& name) {
     if (!ports.contains(name)) found.push_back(fmt::format("its work uses port {}, which it does not have", name));
   };

@@ -118,6 +118,7 @@ struct StageSpec {
   std::vector<std::string> constants = {};  // names of environment constants that its kernels use
   std::vector<Fault> faults = {};
   bool sets_time_step = false;
+  std::string resizes = {};  // domain whose elements its host work makes come and go (host.h); empty: none
   std::vector<Work> work;
 };
 

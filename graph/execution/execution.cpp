@@ -12,8 +12,10 @@
 #include <map>
 #include <optional>
 
+#include "graph/execution/host_context.h"
 #include "graph/execution/kernels.h"
 #include "graph/execution/programs.h"
+#include "graph/execution/sizes.h"
 #include "graph/repeats.h"
 
 namespace firn::execution {
@@ -48,12 +50,13 @@ std::span<const std::byte> bytes_of(const T& value) {
 
 struct Execution::Parts {
   gpu::Device& device;
-  Plan plan;
+  Plan plan;  // as it stands (sizes.h)
   Options options;
   graph::Clock clock;
   Memory memory;
-  std::vector<std::vector<Kernel>> kernels;             // by stage, by work
-  std::vector<gpu::Buffer> parameters;                  // by stage
+  std::vector<std::vector<Kernel>> kernels;  // by stage, by work
+  std::vector<gpu::Buffer> parameters;       // by stage
+  Sizes sizes;
   std::vector<std::unique_ptr<graph::HostStage>> host;  // by stage; empty where it has no host work
   gpu::Buffer clock_block;
   gpu::Buffer faults;           // per stage and kind: count, 0xffffffff - first step
@@ -69,15 +72,18 @@ struct Execution::Parts {
   std::map<const graph::Repeat*, Turns> turns;  // as issued; where the device decides, it alone knows how many did something
 
   Parts(gpu::Device& device_, Plan plan_, const graph::Registry& registry, Options options_)
-      : device(device_), plan(std::move(plan_)), options(std::move(options_)), memory(plan, device) {
+      : device(device_),
+        plan(std::move(plan_)),
+        options(std::move(options_)),
+        memory(plan, device),
+        sizes(plan, memory, kernels, parameters) {
     clock_block = gpu::Buffer(sizeof(ClockBlock), "clock");
     faults = gpu::Buffer(plan.stages.size() * graph::fault_kinds * 2 * sizeof(std::uint32_t), "faults");
     for (int s = 0; s < static_cast<int>(plan.stages.size()); ++s) {
       const PlannedStage& stage = plan.stages[static_cast<std::size_t>(s)];
       device.label(stage.label.c_str());
-      const std::vector<std::byte> block = graph::parameter_block(plan, s);
-      parameters.emplace_back(block.size(), stage.label + " parameters");
-      if (!block.empty()) parameters.back().upload(0, block);
+      parameters.emplace_back(graph::parameter_block(plan, s).size(), stage.label + " parameters");
+      sizes.upload_parameters(s);
       std::vector<Kernel>& of_stage = kernels.emplace_back();
       bool has_host_work = false;
       for (int w = 0; w < static_cast<int>(stage.spec.work.size()); ++w) {
@@ -168,61 +174,6 @@ struct Execution::Parts {
   void work(const graph::Run& run, std::uint64_t turn);
 };
 
-namespace {
-
-class Context final : public graph::HostContext {
- public:
-  Context(const PlannedStage& stage, const Plan& plan, Memory& memory, graph::Clock& clock)
-      : stage_(stage), plan_(plan), memory_(memory), clock_(clock) {}
-
-  [[nodiscard]] graph::PortView view(std::string_view port) const override {
-    const PlannedBuffer& buffer = plan_.buffers[index(port)];
-    return {buffer.type, buffer.count, buffer.width, buffer.height};
-  }
-  [[nodiscard]] bool bound(std::string_view port) const override {
-    return std::ranges::any_of(stage_.spec.ports, [&](const graph::Port& p) {
-      return p.name == port && stage_.buffers[static_cast<std::size_t>(&p - stage_.spec.ports.data())] >= 0;
-    });
-  }
-  std::vector<std::byte> read(std::string_view port) override {
-    const std::size_t b = index(port);
-    if (plan_.buffers[b].texture) return memory_.textures[b].download();
-    std::vector<std::byte> data(plan_.buffers[b].bytes);
-    memory_.buffer(static_cast<int>(b)).download(0, data);
-    return data;
-  }
-  void write(std::string_view port, std::span<const std::byte> data) override {
-    const std::size_t b = index(port);
-    if (data.size() != plan_.buffers[b].bytes)
-      throw std::logic_error(
-          fmt::format("{}: writes {} bytes to '{}', which has {}", stage_.label, data.size(), port, plan_.buffers[b].bytes));
-    if (plan_.buffers[b].texture)
-      memory_.textures[b].upload(data);
-    else if (!data.empty())
-      memory_.buffer(static_cast<int>(b)).upload(0, data);
-  }
-  [[nodiscard]] const graph::Clock& clock() const override { return clock_; }
-  void set_time_step(double dt) override {
-    if (!stage_.spec.sets_time_step)
-      throw std::logic_error(fmt::format("{} sets the time step, but does not say so", stage_.label));
-    clock_.dt = dt;
-  }
-
- private:
-  [[nodiscard]] std::size_t index(std::string_view port) const {
-    for (std::size_t p = 0; p < stage_.spec.ports.size(); ++p)
-      if (stage_.spec.ports[p].name == port && stage_.buffers[p] >= 0) return static_cast<std::size_t>(stage_.buffers[p]);
-    throw std::logic_error(fmt::format("{} has no bound port '{}'", stage_.label, port));
-  }
-
-  const PlannedStage& stage_;
-  const Plan& plan_;
-  Memory& memory_;
-  graph::Clock& clock_;
-};
-
-}  // namespace
-
 void Execution::Parts::work(const graph::Run& run, std::uint64_t turn) {
   const auto s = static_cast<std::size_t>(run.stage);
   const PlannedStage& stage = plan.stages[s];
@@ -230,7 +181,7 @@ void Execution::Parts::work(const graph::Run& run, std::uint64_t turn) {
   device.label(stage.label.c_str());
   if (std::holds_alternative<graph::HostWork>(stage.spec.work[static_cast<std::size_t>(run.work)])) {
     const double before = clock.dt;
-    Context context(stage, plan, memory, clock);
+    PlanContext context(stage, plan, memory, sizes, clock);
     const double start = now();
     host[s]->run(context);
     if (timing) clock_times.push_back({run.stage, run.work, clock.step, start, now() - start});
@@ -316,6 +267,8 @@ void Execution::check_faults() {
   throw NumbersError(fmt::format("{} found {} in step {} ({} {})", stage.label, graph::describe(kind),
                                  0xffffffffu - words[2 * worst + 1], words[2 * worst], words[2 * worst] == 1 ? "case" : "cases"));
 }
+
+void Execution::resize(const std::string& domain, std::uint64_t count) { parts_->sizes.set(domain, count); }
 
 graph::Clock& Execution::clock() { return parts_->clock; }
 const Plan& Execution::plan() const { return parts_->plan; }

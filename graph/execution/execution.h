@@ -67,6 +67,9 @@ class Execution {
   // Instead of setup(), once the buffers that graph/carried.h names have their contents by write(): the clock goes on from there.
   void resume(const graph::Clock& clock);
 
+  // How many elements of a domain there are, as a checkpoint says; at most as many as were planned. Contents stay as they are.
+  void resize(const std::string& domain, std::uint64_t count);
+
   // Waits for the device.
   [[nodiscard]] std::vector<RepeatTurns> turns() const;
 
@@ -74,6 +77,7 @@ class Execution {
   void check_faults();
 
   [[nodiscard]] graph::Clock& clock();
+  // As it stands: where elements come and go, domains and buffers have the numbers of now, not those there is room for.
   [[nodiscard]] const graph::Plan& plan() const;
 
   // The contents of a buffer in device layout, and the reverse. Throws std::out_of_range for an unknown name.

@@ -187,20 +187,27 @@ Kernel make_kernel(const Plan& plan, int stage_index, int work_index, const Memo
   const PlannedStage& stage = stage_of(plan, stage_index);
   const graph::Work& work = stage.spec.work[static_cast<std::size_t>(work_index)];
   Kernel kernel;
-  const auto count = [&](const std::string& domain) { return element_count(domain, plan.environment).value_or(0); };
+  size_kernel(kernel, plan, stage_index, work_index);
   if (!std::holds_alternative<graph::HostWork>(work))
     kernel.interface = graph::kernel_interface(plan, stage_index, work_index, traits_of(device));
-  if (const auto* dispatch = std::get_if<Dispatch>(&work); dispatch != nullptr && !dispatch->over.empty())
-    kernel.elements = count(dispatch->over);
   if (const auto* draw = std::get_if<Draw>(&work)) {
-    kernel.elements = count(draw->instances);
-    kernel.vertices = count(draw->vertices);
     std::vector<const gpu::Texture*> colors;
     for (const std::string& color : draw->colors) colors.push_back(&target_texture(stage, color, memory));
     kernel.target =
         gpu::Framebuffer(colors, draw->depth.empty() ? nullptr : &target_texture(stage, draw->depth, memory), stage.label);
   }
   return kernel;
+}
+
+void size_kernel(Kernel& kernel, const Plan& plan, int stage, int work) {
+  const auto count = [&](const std::string& domain) { return element_count(domain, plan.environment).value_or(0); };
+  const graph::Work& of_stage = stage_of(plan, stage).spec.work[static_cast<std::size_t>(work)];
+  if (const auto* dispatch = std::get_if<Dispatch>(&of_stage); dispatch && !dispatch->over.empty())
+    kernel.elements = count(dispatch->over);
+  if (const auto* draw = std::get_if<Draw>(&of_stage)) {
+    kernel.elements = count(draw->instances);
+    kernel.vertices = count(draw->vertices);
+  }
 }
 
 void bind_kernel(const PlannedStage& stage, const Kernel& kernel, const Memory& memory, const StageBlocks& blocks) {

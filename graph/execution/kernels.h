@@ -54,6 +54,9 @@ gpu::ProgramSource program_source(const graph::Plan& plan, int stage, int work, 
 gpu::ShaderSource kernel_source(const graph::Plan& plan, int stage, int work, const std::string& file, gpu::ShaderKind kind,
                                 const graph::DeviceTraits& traits, std::span<const std::filesystem::path> shader_folders);
 
+// How many invocations, instances and vertices the plan has for it, as its domains stand.
+void size_kernel(Kernel& kernel, const graph::Plan& plan, int stage, int work);
+
 // What all kernels of a stage are bound to beside the buffers of its ports.
 struct StageBlocks {
   const gpu::Buffer& parameters;

@@ -89,6 +89,12 @@ class MemoryContext final : public HostContext {
   }
   [[nodiscard]] const Clock& clock() const override { return clock_; }
   void set_time_step(double dt) override { clock_.dt = dt; }
+  void keep(std::span<const std::uint32_t>) override { throw std::logic_error("nothing here comes or goes"); }
+  void append(std::uint64_t) override { throw std::logic_error("nothing here comes or goes"); }
+  void write_from(std::string_view port, std::uint64_t first, std::span<const std::byte> bytes) override {
+    const PortView there = view(port);
+    std::ranges::copy(bytes, data[std::string(port)].begin() + static_cast<std::ptrdiff_t>(first * stride(there.type)));
+  }
 
  private:
   Clock clock_;
