@@ -42,6 +42,14 @@ std::vector<int> kept(const graph::Plan& plan) {
   return buffers;
 }
 
+// Domains whose elements come and go.
+std::set<std::string> resized(const graph::Plan& plan) {
+  std::set<std::string> domains;
+  for (const graph::PlannedStage& stage : plan.stages)
+    if (const std::string& domain = stage.spec.resizes; plan.environment.domains.contains(domain)) domains.insert(domain);
+  return domains;
+}
+
 void remove_older(const fs::path& run, std::size_t keep) {
   const std::vector<fs::path> all = checkpoints_of(run);
   for (std::size_t i = 0; i + keep < all.size(); ++i) fs::remove_all(all[i]);
@@ -77,6 +85,8 @@ void write_files(const fs::path& folder, const execution::Execution& execution, 
   about["frame"] = clock.frame;
   about["time"] = clock.time;
   about["dt"] = clock.dt;
+  about["sizes"] = json::object();
+  for (const std::string& domain : resized(plan)) about["sizes"][domain] = plan.environment.domains.at(domain).count;
   about["buffers"] = buffers;
   add(checkpoint_manifest, about.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
   write_file(folder / hash_list, hash_lines(hashes));
@@ -235,6 +245,14 @@ std::vector<std::string> restore(const Checkpoint& checkpoint, execution::Execut
   const graph::Plan& plan = execution.plan();
   const std::vector<int> needed = graph::carried(plan);
   const fs::path manifest = checkpoint.folder / checkpoint_manifest;
+  const json sizes = checkpoint.manifest.value("sizes", json::object());
+  for (const std::string& domain : resized(plan)) {
+    const std::uint64_t room = plan.environment.domains.at(domain).count;
+    const json size = sizes.is_object() ? sizes.value(domain, json(room)) : json();
+    if (!size.is_number_unsigned() || size.get<std::uint64_t>() > room)
+      refuse(manifest, fmt::format("the number of {} in \"sizes\" must be a whole number up to {}", domain, room));
+    execution.resize(domain, size.get<std::uint64_t>());
+  }
   std::vector<std::string> left_out;
   for (const int b : kept(plan)) {
     const graph::PlannedBuffer& buffer = plan.buffers[static_cast<std::size_t>(b)];

@@ -11,6 +11,7 @@
 #include "app/export.h"
 #include "app/shipped.h"
 #include "config/nearest.h"
+#include "scene/emission.h"
 
 namespace firn::app {
 namespace {
@@ -65,7 +66,7 @@ std::vector<std::pair<std::string, config::Node>> read_replacements(const std::v
 // grid takes is known once it is planned.
 void check_memory(const scene::Scene& scene, double allowed, config::Diagnostics& diagnostics) {
   constexpr double per_particle = 64 + 64 + 400;  // bytes: sampling, scene and upload, the pipelines' buffers
-  const double particles = static_cast<double>(scene::estimate_particles(scene));
+  const double particles = static_cast<double>(std::max(scene::estimate_particles(scene), scene.max_particles));
   const double needed = particles * per_particle;
   const double there =
       allowed > 0 ? allowed : static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
@@ -77,6 +78,17 @@ void check_memory(const scene::Scene& scene, double allowed, config::Diagnostics
           "up to {:.0f} particles would take about {:.1f} GiB; this machine has {:.1f} GiB; make the cell larger or the snow "
           "smaller",
           particles, needed / gib, there / gib));
+}
+
+// What a scene has for particles, and no stage of the pipeline makes use of.
+void warn_of_idle_parts(const scene::Scene& scene, const graph::Plan& plan, config::Diagnostics& diagnostics) {
+  if (plan.buffer("position") < 0) return;
+  const auto check = [&](const auto& parts, const char* what, const char* stage) {
+    if (!parts.empty() && std::ranges::none_of(plan.stages, [&](const graph::PlannedStage& s) { return s.spec.name == stage; }))
+      diagnostics.warning(parts.front().place, fmt::format("{} do nothing in this pipeline: it has no stage {}", what, stage));
+  };
+  check(scene.emitters, "emitters", "mpm.emit");
+  check(scene.sinks, "sinks", "mpm.remove");
 }
 
 }  // namespace
@@ -119,6 +131,8 @@ std::shared_ptr<const stages::Problem> load_problem(const std::string& file, con
     scene::Scene scene = scene::read_scene(node, of_scene);
     if (!of_scene.has_errors()) check_memory(scene, memory, of_scene);
     if (!of_scene.has_errors()) problem = stages::make_problem(std::move(scene), image, output);
+    if (problem) scene::check_room(problem->scene, problem->particles.position.size(), of_scene);
+    if (of_scene.has_errors()) problem = nullptr;
   }
   diagnostics.append(of_scene);
   return problem;
@@ -211,6 +225,7 @@ Loaded load(const Inputs& inputs, const std::string& output) {
                                {.share_memory = inputs.share_memory, .decide_on_device = inputs.repeats == "device"});
   loaded.problem = problem;
   config::throw_if_errors(diagnostics);
+  warn_of_idle_parts(problem->scene, loaded.plan, diagnostics);
   return loaded;
 }
 

@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* particle_columns =
     ",mass,momentum_x,momentum_y,momentum_z,kinetic_energy,potential_energy,max_speed,min_jp,max_jp";
+constexpr const char* flow_columns = ",particles,emitted_mass,removed_mass";
 constexpr const char* field_columns = ",snow_mass,max_depth,min_density,max_density";
 
 bool has(const graph::Plan& plan, const char* name, graph::ElementType type, const char* domain) {
@@ -53,12 +54,13 @@ Metrics::Metrics(const fs::path& run, const Loaded& loaded, const graph::Clock& 
   const graph::Plan& plan = loaded.plan;
   has_particles_ = has(plan, "position", vec3, "particles") && has(plan, "velocity", vec3, "particles") &&
                    has(plan, "mass", float1, "particles") && has(plan, "plastic_det", float1, "particles");
+  has_flow_ = has_particles_ && (plan.buffer("emitted_mass") >= 0 || plan.buffer("removed_mass") >= 0);
   has_field_ = has(plan, "depth", float1, "cells") && has(plan, "density", float1, "cells");
   const scene::Scene& scene = loaded.problem->scene;
   for (int axis = 0; axis < 3; ++axis) gravity_[static_cast<std::size_t>(axis)] = scene.gravity[axis];
   if (scene.field) cell_area_ = scene.field->size.x() / scene.field->cells_x * scene.field->size.y() / scene.field->cells_z;
-  const std::string header = fmt::format("frame,step,time,dt{}{},steps_per_second", has_particles_ ? particle_columns : "",
-                                         has_field_ ? field_columns : "");
+  const std::string header = fmt::format("frame,step,time,dt{}{}{},steps_per_second", has_particles_ ? particle_columns : "",
+                                         has_flow_ ? flow_columns : "", has_field_ ? field_columns : "");
   std::string text = lines_before(file_, header, start.frame);
   if (text.empty()) text = header + "\n";
   replace_file(file_, text);
@@ -83,9 +85,22 @@ std::string Metrics::particles(const execution::Execution& execution) const {
     potential += mass[i] * height;
     fastest = std::max(fastest, square);
   }
-  const auto [low, high] = std::ranges::minmax_element(plastic);
+  const auto [low, high] =
+      plastic.empty() ? std::pair(1.0F, 1.0F) : std::pair(std::ranges::min(plastic), std::ranges::max(plastic));
   return fmt::format(",{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", total, momentum[0], momentum[1],
-                     momentum[2], kinetic, potential, std::sqrt(fastest), *low, *high);
+                     momentum[2], kinetic, potential, std::sqrt(fastest), low, high);
+}
+
+// So many digits that what came less what went is what there is, to the last one.
+std::string Metrics::flow(const execution::Execution& execution) {
+  const graph::Plan& plan = execution.plan();
+  const auto sum = [&](const char* name) {
+    double total = 0;
+    if (plan.buffer(name) >= 0)
+      for (const float part : floats(execution, name)) total += part;
+    return total;
+  };
+  return fmt::format(",{},{:.9g},{:.9g}", plan.environment.domains.at("particles").count, sum("emitted_mass"), sum("removed_mass"));
 }
 
 std::string Metrics::field(const execution::Execution& execution) const {
@@ -107,8 +122,9 @@ void Metrics::add(execution::Execution& execution) {
   const graph::Clock& clock = execution.clock();
   const double passed = std::chrono::duration<double>(begin - time_before_).count();
   const double rate = passed > 0 ? static_cast<double>(clock.step - step_before_) / passed : 0;
-  stream_ << fmt::format("{},{},{:.12g},{:.9g}{}{},{:.6g}\n", clock.frame - 1, clock.step, clock.time, clock.dt,
-                         has_particles_ ? particles(execution) : "", has_field_ ? field(execution) : "", rate);
+  stream_ << fmt::format("{},{},{:.12g},{:.9g}{}{}{},{:.6g}\n", clock.frame - 1, clock.step, clock.time, clock.dt,
+                         has_particles_ ? particles(execution) : "", has_flow_ ? flow(execution) : "",
+                         has_field_ ? field(execution) : "", rate);
   stream_.flush();
   if (!stream_) throw std::runtime_error(fmt::format("cannot write {}; is the disk full?", shown(file_)));
   step_before_ = clock.step;

@@ -24,11 +24,12 @@ class Metrics {
 
  private:
   [[nodiscard]] std::string particles(const execution::Execution& execution) const;
+  [[nodiscard]] static std::string flow(const execution::Execution& execution);
   [[nodiscard]] std::string field(const execution::Execution& execution) const;
 
   std::filesystem::path file_;
   std::ofstream stream_;
-  bool has_particles_ = false, has_field_ = false;
+  bool has_particles_ = false, has_flow_ = false, has_field_ = false;
   std::array<double, 3> gravity_{};
   double cell_area_ = 0;  // m2, of the field
   std::uint64_t step_before_ = 0;

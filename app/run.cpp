@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 void warn_of_long_steps(const scene::Scene& scene) {
-  if (!scene.time.dt || scene.snow.empty()) return;
+  if (!scene.time.dt || !scene.has_particles()) return;
   // cfl 1 is where the explicit scheme breaks; the scene's own cfl is its safety.
   const double limit = stages::stable_time_step(scene) / scene.time.cfl;
   if (limit > 0 && *scene.time.dt > limit)
@@ -218,8 +218,9 @@ int run(const RunOptions& given) {
   const json identity = identity_of(loaded);
   if (start.checkpoint) check_same(*start.checkpoint, identity, device->info().name);
   spdlog::info("{} on {}", loaded.pipeline.name, scene.name.empty() ? loaded.scene_file : scene.name);
-  spdlog::info("{} particles, {} stages, {:.1f} MiB; {}", loaded.problem->particles.position.size(), loaded.plan.stages.size(),
-               static_cast<double>(loaded.plan.bytes) / (1 << 20), device->info().name);
+  const std::string room = scene.max_particles > 0 ? fmt::format(" (room for {})", scene.max_particles) : "";
+  spdlog::info("{} particles{}, {} stages, {:.1f} MiB; {}", loaded.problem->particles.position.size(), room,
+               loaded.plan.stages.size(), static_cast<double>(loaded.plan.bytes) / (1 << 20), device->info().name);
   warn_of_long_steps(scene);
 
   std::optional<RunFolder> folder;  // locked until the film, too, is closed

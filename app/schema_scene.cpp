@@ -119,6 +119,36 @@ json snow() {
   return schema;
 }
 
+json span(json properties) {
+  properties["from"] = number("s", not_negative);
+  properties["until"] = number("s", not_negative);
+  return properties;
+}
+
+json emitter() {
+  const json snowfall = map({{"center", vector("m, of a level rectangle")},
+                             {"size", numbers(2, "m, along x and z", positive)},
+                             {"rate", number("kg/(m2 s)", not_negative)},
+                             {"velocity", vector("m/s")}},
+                            {"center", "size", "rate"});
+  const json gun = map({{"position", vector("m, centre of the nozzle")},
+                        {"direction", vector("the way it points")},
+                        {"speed", number("m/s", positive)},
+                        {"spread", number("degrees, from the direction to the outermost flakes", {0.0, 90.0, {}, {}})},
+                        {"radius", number("m, of the nozzle", positive)},
+                        {"rate", number("kg/s", not_negative)}},
+                       {"position", "direction", "speed", "radius", "rate"});
+  json schema = map(span({{"snowfall", snowfall},
+                          {"gun", gun},
+                          {"material", text("one of the materials above, or a preset")},
+                          {"per_cell", integer("decides the mass of a particle, as of snow", {1.0, 64.0, {}, {}})}}),
+                    {"material"});
+  schema["oneOf"] = one_of_keys({"snowfall", "gun"});
+  return schema;
+}
+
+json sink() { return map(span({{"box", box(true)}}), {"box"}); }
+
 // A number for all cells, or a picture of it.
 json source(const char* key, const char* doc, const Limits& limits) {
   return {{"description", doc},
@@ -187,6 +217,9 @@ json scene_schema() {
                       {"min", "max", "cell"})},
        {"materials", {{"type", {"object", "null"}}, {"additionalProperties", material()}}},
        {"snow", list_of(snow(), "shapes that are filled with particles")},
+       {"emitters", list_of(emitter(), "snow that comes while time passes")},
+       {"sinks", list_of(sink(), "boxes that particles vanish in")},
+       {"max_particles", integer("that there may be at once; needed with emitters", {1.0, 2147483648.0, {}, {}})},
        {"field", field()},
        {"bodies", list_of(body(), "rigid bodies")},
        {"camera", map({{"from", vector("m")}, {"to", vector("m")}, {"fov", number("degrees, vertical", {{}, {}, 1.0, 170.0})}})},
@@ -194,7 +227,7 @@ json scene_schema() {
       {"firn"});
   schema["$schema"] = "http://json-schema.org/draft-07/schema#";
   schema["title"] = "Firn scene";
-  schema["anyOf"] = one_of_keys({"snow", "field"});
+  schema["anyOf"] = one_of_keys({"snow", "emitters", "field"});
   return schema;
 }
 

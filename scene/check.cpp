@@ -12,7 +12,6 @@ namespace firn::scene::detail {
 
 namespace {
 
-constexpr double most_particles = 2147483648.0;  // 2^31: particles are counted in 32 bits on the device
 // Position 3, velocity 3, elastic deformation 9, plastic volume, volume, mass (part M of the model): 18 floats.
 constexpr double bytes_per_particle = 72;
 

@@ -22,6 +22,7 @@ using config::Reader;
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr Range positive{0, infinity, true, false};
 inline constexpr Range not_negative{0, infinity, false, false};
+inline constexpr double most_particles = 2147483648.0;  // 2^31: particles are counted in 32 bits on the device
 
 // --- read_values.cpp: kinds of values that several sections share ---------------------------------------------------------
 
@@ -64,6 +65,8 @@ std::optional<int> required_material(Reader& reader, std::string_view key, std::
 std::optional<Domain> read_domain(const Node& node, Diagnostics& diagnostics);
 std::optional<Snow> read_snow(const Node& node, const std::filesystem::path& folder, std::vector<Material>& materials,
                               Diagnostics& diagnostics);
+std::optional<Emitter> read_emitter(const Node& node, std::vector<Material>& materials, Diagnostics& diagnostics);
+std::optional<Sink> read_sink(const Node& node, Diagnostics& diagnostics);
 std::optional<Field> read_field(const Node& node, const std::filesystem::path& folder, std::vector<Material>& materials,
                                 Diagnostics& diagnostics);
 // `number` counts bodies from 1, for the name of one that has none.
@@ -72,6 +75,7 @@ std::optional<Body> read_body(const Node& node, const std::filesystem::path& fol
 // --- check.cpp: what needs more than one section ---------------------------------------------------------------------------
 
 void check_snow(const std::vector<Snow>& snow, const Domain& domain, Diagnostics& diagnostics);
+void check_emitters(const Scene& scene, Diagnostics& diagnostics);
 void check_bodies(const std::vector<Body>& bodies, const Domain& domain, const Time& time, const Vector3d& gravity,
                   Diagnostics& diagnostics);
 

@@ -147,6 +147,15 @@ Scene read_scene(const config::Node& root, config::Diagnostics& diagnostics) {
   const std::vector<Node>& snow = list(reader, "snow");
   for (const Node& node : snow)
     if (std::optional<Snow> each = read_snow(node, folder, scene.materials, diagnostics)) scene.snow.push_back(std::move(*each));
+  const std::vector<Node>& emitters = list(reader, "emitters");
+  for (const Node& node : emitters)
+    if (std::optional<Emitter> each = read_emitter(node, scene.materials, diagnostics)) scene.emitters.push_back(*each);
+  for (const Node& node : list(reader, "sinks"))
+    if (std::optional<Sink> each = read_sink(node, diagnostics)) scene.sinks.push_back(*each);
+  if (const Node* most = reader.find("max_particles")) {
+    scene.max_particles = static_cast<std::uint64_t>(reader.integer("max_particles", 0, {1, most_particles, false, false}));
+    scene.max_particles_place = most->place;
+  }
   const Node* field = reader.find("field");
   if (field != nullptr) scene.field = read_field(*field, folder, scene.materials, diagnostics);
   const std::vector<Node>& bodies = list(reader, "bodies");
@@ -157,16 +166,21 @@ Scene read_scene(const config::Node& root, config::Diagnostics& diagnostics) {
   reader.finish();
 
   check_names(scene.bodies, diagnostics);
-  const Node* snow_node = root.find("snow");
-  const bool snow_is_list = snow_node == nullptr || snow_node->kind == Node::Kind::sequence || snow_node->kind == Node::Kind::null;
-  if (root.kind == Node::Kind::map && snow.empty() && snow_is_list && field == nullptr)
-    diagnostics.error(root.place,
-                      "nothing to simulate: the scene has neither snow (for particles) nor a field (for the height field)");
-  if (!snow.empty() && domain == nullptr)
-    diagnostics.error(snow.front().place,
+  const auto is_unreadable = [&](const char* key) {
+    const Node* node = root.find(key);
+    return node != nullptr && node->kind != Node::Kind::sequence && node->kind != Node::Kind::null;
+  };
+  if (root.kind == Node::Kind::map && snow.empty() && emitters.empty() && !is_unreadable("snow") && !is_unreadable("emitters") &&
+      field == nullptr)
+    diagnostics.error(
+        root.place,
+        "nothing to simulate: the scene has neither snow nor emitters (for particles), nor a field (for the height field)");
+  if (domain == nullptr && !(snow.empty() && emitters.empty()))
+    diagnostics.error((snow.empty() ? emitters : snow).front().place,
                       "snow needs a domain that it moves in: domain: {min: [x, y, z], max: [x, y, z], cell: h}");
   if (scene.domain) {
     check_snow(scene.snow, *scene.domain, diagnostics);
+    check_emitters(scene, diagnostics);
     check_bodies(scene.bodies, *scene.domain, scene.time, scene.gravity, diagnostics);
   }
   return scene;

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -92,6 +93,38 @@ struct Snow {
   Place place;
 };
 
+// --- snow that comes and goes while time passes (scene/emission.h) -----------------------------------------------------------
+
+struct Span {  // s
+  double from = 0, until = std::numeric_limits<double>::infinity();
+};
+struct Snowfall {  // out of a level rectangle
+  Vector3d center{0, 0, 0};
+  Vector2d size{1, 1};          // m, along x and z
+  double rate = 0;              // kg/(m2 s)
+  Vector3d velocity{0, -1, 0};  // m/s
+};
+struct SnowGun {
+  Vector3d position{0, 0, 0};   // centre of the nozzle
+  Vector3d direction{1, 0, 0};  // unit length
+  double speed = 0;             // m/s
+  double spread = 0;            // degrees, between the direction and the outermost flakes
+  double radius = 0;            // m, of the nozzle
+  double rate = 0;              // kg/s
+};
+struct Emitter {
+  std::variant<Snowfall, SnowGun> what;
+  int material = 0;  // index into Scene::materials
+  int per_cell = 8;  // as of Snow: decides the mass of a particle
+  Span span;
+  Place place;
+};
+struct Sink {
+  Box box;
+  Span span;
+  Place place;
+};
+
 // --- the field that the height-field model works on -------------------------------------------------------------------------
 
 // A number for the whole field, or an image (scene/image.h) with the value of white in `unit_value` (file key: metres, or density).
@@ -168,10 +201,16 @@ struct Scene {
   std::optional<Domain> domain;
   std::vector<Material> materials;
   std::vector<Snow> snow;
+  std::vector<Emitter> emitters;
+  std::vector<Sink> sinks;
+  std::uint64_t max_particles = 0;  // that there may be at once; 0: none declared, as many as `snow` makes
+  Place max_particles_place;
   std::optional<Field> field;
   std::vector<Body> bodies;
   Camera camera;
   Light light;
+
+  [[nodiscard]] bool has_particles() const { return domain && !(snow.empty() && emitters.empty()); }
 };
 
 // Reads a scene out of its YAML tree (after --set edits). All errors go to `diagnostics`; the scene is usable only if there are

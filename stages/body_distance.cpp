@@ -47,7 +47,7 @@ std::vector<float> distances(const scene::TriangleMesh& mesh, const DistanceGrid
 
 std::vector<std::optional<DistanceGrid>> distance_grids(const Problem& problem) {
   std::vector<std::optional<DistanceGrid>> grids(problem.scene.bodies.size());
-  if (!problem.scene.domain || problem.scene.snow.empty()) return grids;
+  if (!problem.scene.has_particles()) return grids;
   for (std::size_t b = 0; b < grids.size(); ++b)
     if (!problem.meshes[b].triangles.empty())
       grids[b] = distance_grid(in_own_axes(problem.scene.bodies[b], problem.meshes[b]), problem.scene.domain->cell);

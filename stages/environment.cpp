@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/emission.h"
 #include "scene/materials.h"
 #include "scene/mesh_solid.h"
 #include "scene/solid.h"
@@ -24,13 +25,17 @@ double power_of_two_below(double x) { return std::exp2(std::floor(std::log2(x)))
 double crowd(const scene::Scene& scene) {
   int most = 1;
   for (const scene::Snow& snow : scene.snow) most = std::max(most, snow.per_cell);
+  for (const scene::Emitter& emitter : scene.emitters) most = std::max(most, emitter.per_cell);
   return 8.0 * most;
 }
 
 // Fixed-point scales (powers of two) from bounds on sums over one node. With at most n particles a cell and per axis sum N <= 5/3
 // over one particle per cell: m_i <= (5/3)^3 n max m_p, |(m v)_i| <= that times max |v|.
 void add_scales(const Problem& problem, graph::Environment& environment) {
-  const double heaviest = problem.particles.mass.empty() ? 1.0 : *std::ranges::max_element(problem.particles.mass);
+  double heaviest = problem.particles.mass.empty() ? 0.0 : *std::ranges::max_element(problem.particles.mass);
+  for (const scene::Emitter& emitter : problem.scene.emitters)
+    heaviest = std::max(heaviest, scene::particle_mass(problem.scene, emitter));
+  if (heaviest == 0) heaviest = 1;
   const double mass_bound = 125.0 / 27.0 * crowd(problem.scene) * heaviest;
   double fastest = speed_bound(problem.scene);
   for (const scene::Vector3d& v : problem.particles.velocity) fastest = std::max(fastest, 2.0 * v.norm());  // from files of points
@@ -135,8 +140,8 @@ void add_view(const scene::Scene& scene, graph::Environment& environment) {
 
 void say_what_is_missing(graph::Environment& environment) {
   const char* no_grid = "the scene has no 'domain' with 'snow' in it";
-  for (const char* name : {"particles", "nodes", "grid_rows", "grid_blocks", "block_table", "surface_corners", "grid_min",
-                           "grid_cell", "grid_nodes", "mass_scale", "momentum_scale", "crowd"})
+  for (const char* name : {"particles", "emitters", "sinks", "nodes", "grid_rows", "grid_blocks", "block_table", "surface_corners",
+                           "grid_min", "grid_cell", "grid_nodes", "mass_scale", "momentum_scale", "crowd"})
     environment.missing[name] = no_grid;
   for (const char* name :
        {"cells", "tiles", "field_min", "field_cell", "min_density", "max_density", "material_slope", "field_color"})
@@ -157,6 +162,7 @@ double speed_bound(const scene::Scene& scene) {
       reach = (mesh->solid->bounds().max - mesh->solid->bounds().min).norm();
     fastest = std::max(fastest, snow.velocity.norm() + snow.spin.norm() * reach);
   }
+  for (const scene::Emitter& emitter : scene.emitters) fastest = std::max(fastest, scene::largest_speed(emitter));
   for (const scene::Body& body : scene.bodies) {
     // A turning body carries along what it touches, at most as far out as the domain is wide.
     const double reach = scene.domain ? (scene.domain->max - scene.domain->min).norm() : 0;
@@ -176,6 +182,10 @@ double stable_time_step(const scene::Scene& scene) {
   for (const scene::Snow& snow : scene.snow) {
     waves = std::max(waves, scene::sound_speed(scene.materials[static_cast<std::size_t>(snow.material)]));
     speed = std::max(speed, snow.velocity.norm());
+  }
+  for (const scene::Emitter& emitter : scene.emitters) {
+    waves = std::max(waves, scene::sound_speed(scene.materials[static_cast<std::size_t>(emitter.material)]));
+    speed = std::max(speed, scene::largest_speed(emitter));
   }
   const double h = scene.domain ? scene.domain->cell : 0.0;
   return waves + speed > 0 ? scene.time.cfl * h / (waves + speed) : 0.0;
@@ -218,9 +228,13 @@ graph::Environment environment(const Problem& problem) {
   result.constants.push_back({"gravity", ElementType::vec3, graph::Vector3{scene.gravity.x(), scene.gravity.y(), scene.gravity.z()},
                               "m/s2", "acceleration by gravity"});
   add_view(scene, result);
-  if (scene.domain && !scene.snow.empty()) {
-    result.domains["particles"] = count(problem.particles.position.size());
-    add_grid(*scene.domain, problem.particles.position.size(), result);
+  if (scene.has_particles()) {
+    const std::size_t most =
+        std::max<std::size_t>(problem.particles.position.size(), scene.emitters.empty() ? 0 : scene.max_particles);
+    result.domains["particles"] = count(most);
+    result.domains["emitters"] = count(scene.emitters.size());
+    result.domains["sinks"] = count(scene.sinks.size());
+    add_grid(*scene.domain, most, result);
     add_scales(problem, result);
     // At eight particles a cell whole snow needs far less, and a snowball torn to pieces has needed 0.4 a particle; the rest is for
     // snow of few particles.
@@ -228,7 +242,9 @@ graph::Environment environment(const Problem& problem) {
   }
   if (scene.field) add_field(scene, result);
   result.listed_by = {{"grid_blocks", "active_blocks"}};
-  result.choices["snow"] = scene.domain && !scene.snow.empty() ? "particles" : "none";
+  result.choices["snow"] = scene.has_particles() ? "particles" : "none";
+  result.choices["emitters"] = scene.emitters.empty() ? "none" : "some";
+  result.choices["sinks"] = scene.sinks.empty() || !scene.has_particles() ? "none" : "some";
   result.choices["time_step"] = scene.time.dt ? "fixed" : "auto";
   result.choices.merge(forms_for({}, result).choices);  // until a device is known
   return result;

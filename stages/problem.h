@@ -29,8 +29,8 @@ std::shared_ptr<const Problem> make_problem(scene::Scene scene, Image image, std
 // Triangles of all boxes and meshes among the bodies.
 std::size_t facet_count(const Problem& problem);
 
-// Domains: particles, materials, nodes, grid_rows, grid_blocks, block_table, surface_corners, cells, tiles, bodies,
-// key_frames, facets, body_distances, image, shadow_map. Constants: see environment.cpp.
+// Domains: particles (as many as there is room for), emitters, sinks, materials, nodes, grid_rows, grid_blocks, block_table,
+// surface_corners, cells, tiles, bodies, key_frames, facets, body_distances, image, shadow_map. Constants: see environment.cpp.
 graph::Environment environment(const Problem& problem);
 
 // Bound of all speeds that the scene can bring about, m/s: initial speeds, bodies, and what gravity adds; for fixed-point scales.

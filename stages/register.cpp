@@ -26,6 +26,7 @@
 #include "stages/mpm/clear_grid.h"
 #include "stages/mpm/deform.h"
 #include "stages/mpm/deform_stress.h"
+#include "stages/mpm/emit.h"
 #include "stages/mpm/gather_affine.h"
 #include "stages/mpm/gather_to_grid.h"
 #include "stages/mpm/gather_velocities.h"
@@ -37,6 +38,7 @@
 #include "stages/mpm/initial_density.h"
 #include "stages/mpm/particle_collide.h"
 #include "stages/mpm/particles_to_grid.h"
+#include "stages/mpm/remove.h"
 #include "stages/mpm/seed.h"
 #include "stages/mpm/sort.h"
 #include "stages/mpm/stress.h"
@@ -78,6 +80,7 @@ graph::Registry all_stages(const std::shared_ptr<const Problem>& problem) {
   registry.add(mpm::clear_grid());
   registry.add(mpm::deform());
   registry.add(mpm::deform_stress());
+  registry.add(mpm::emit(), mpm::emitting(problem));
   registry.add(mpm::gather_affine());
   registry.add(mpm::gather_to_grid());
   registry.add(mpm::gather_velocities());
@@ -89,6 +92,7 @@ graph::Registry all_stages(const std::shared_ptr<const Problem>& problem) {
   registry.add(mpm::initial_density());
   registry.add(mpm::particle_collide());
   registry.add(mpm::particles_to_grid());
+  registry.add(mpm::remove(), mpm::removing(problem));
   registry.add(mpm::seed(), mpm::seeding(problem));
   registry.add(mpm::sort());
   registry.add(mpm::stress());

@@ -61,7 +61,11 @@ void main() {
   vec3 normal = vec3(0.0);
   float open = 1.0, shown = 1.0;
 #if HAS_GRID_MASS
-  vec4 density = density_about(index, x);
+  vec4 density = vec4(0.0);
+#if NODES_ACTIVE
+  if (particle_cell[index] != 0xffffffffu)  // else it has come just now, and no block is known for it
+#endif
+    density = density_about(index, x);
   // Where density falls off within a cell or two there is a surface; deep inside there is none.
   normal = -density.xyz * grid_cell / max(density.w, 0.05 * look.w);
   float steepness = length(normal);

@@ -28,6 +28,9 @@ std::vector<float> stress_norms(const std::vector<float>& stress, const std::vec
 struct Values {
   std::vector<float> position, velocity, plastic_det, stress_norm;
   std::vector<std::int32_t> material;
+
+  // Where there are no particles, files have all columns, without a row.
+  [[nodiscard]] bool has(const auto& column) const { return !column.empty() || position.empty(); }
 };
 
 std::vector<std::byte> bytes_of(const auto& values, std::size_t component, std::size_t components) {
@@ -78,10 +81,10 @@ class ParticleFiles {
     vtk::PolyData data;
     data.points_count = values.position.size() / 3;
     data.points = vtk::array("position", 3, values.position, level_);
-    if (cells_.count != data.points_count) cells_ = vtk::one_per_point(data.points_count, level_);
+    if (cells_.count != data.points_count || cells_.kind.empty()) cells_ = vtk::one_per_point(data.points_count, level_);
     data.cells = cells_;
     const auto add = [&](const char* name, int components, const auto& array) {
-      if (!array.empty()) data.point_data.push_back(vtk::array(name, components, std::span(array), level_));
+      if (values.has(array)) data.point_data.push_back(vtk::array(name, components, std::span(array), level_));
     };
     add("velocity", 3, values.velocity);
     add("J_P", 1, values.plastic_det);
@@ -94,7 +97,7 @@ class ParticleFiles {
     std::vector<Column> columns;
     const auto add = [&](const char* name, const auto& array, std::size_t component = 0, std::size_t components = 1) {
       using T = std::decay_t<decltype(array[0])>;
-      if (!array.empty()) columns.push_back({name, std::is_integral_v<T>, bytes_of(array, component, components)});
+      if (values.has(array)) columns.push_back({name, std::is_integral_v<T>, bytes_of(array, component, components)});
     };
     for (std::size_t axis = 0; const char* name : {"x", "y", "z"}) add(name, values.position, axis++, 3);
     for (std::size_t axis = 0; const char* name : {"vx", "vy", "vz"}) add(name, values.velocity, axis++, 3);
@@ -114,7 +117,7 @@ class ParticleFiles {
         rows[6 * p + 3 + axis] = values.velocity[3 * p + axis];
       }
     const auto write = [&](const char* suffix, const scene::NpyShape& shape, const auto& array) {
-      if (array.empty()) return;
+      if (array.empty() && count > 0) return;
       write_beside(series_.file(frame, suffix), [&](const std::filesystem::path& part) {
         scene::write_npy(part, shape, std::span<const typename std::decay_t<decltype(array)>::value_type>(array));
       });

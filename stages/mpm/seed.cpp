@@ -23,6 +23,10 @@ class Seeding final : public graph::HostStage {
   void run(graph::HostContext& context) override {
     const scene::Particles& particles = problem_->particles;
     const std::size_t count = particles.position.size();
+    if (count != context.view("position").count) {  // room for those that come later
+      context.keep({});
+      context.append(count);
+    }
     context.write_floats("position", floats(particles.position));
     context.write_floats("velocity", floats(particles.velocity));
     context.write_floats("mass", floats(particles.mass));
@@ -66,6 +70,7 @@ graph::StageSpec seed() {
                           .initial = std::string("none"),
                           .choices = {"none", "zero"},
                           .doc = "zero: particles start without affine part, for mpm.gather_affine; none: not written"}},
+          .resizes = "particles",
           .work = {graph::HostWork{}}};
 }
 
