@@ -195,6 +195,10 @@ TEST_CASE("a checkpoint of broken contents is refused, whatever its hashes say, 
   });
   spoilt("a huge count in the manifest", "\"count\" of the buffer 'position' is 4611686018427387904, but must be 237",
          [&] { run.change_manifest([&](json& m) { entry(m, "position")["count"] = std::uint64_t{1} << 62; }); });
+  spoilt("more particles than there is room for", "the number of particles in \"sizes\" must be a whole number up to 237",
+         [&] { run.change_manifest([](json& m) { m["sizes"]["particles"] = std::uint64_t{1} << 40; }); });
+  spoilt("fewer particles than there were", "\"count\" of the buffer",
+         [&] { run.change_manifest([](json& m) { m["sizes"]["particles"] = 200; }); });
   spoilt("a file outside the checkpoint", "\"file\" of the buffer 'position' is \"../../../../../dev/zero\"",
          [&] { run.change_manifest([&](json& m) { entry(m, "position")["file"] = "../../../../../dev/zero"; }); });
   spoilt("a buffer's name that is no UTF-8", "manifest.json: error: is no JSON object", [&] {

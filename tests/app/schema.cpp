@@ -124,6 +124,12 @@ snow:
   - {capsule: {from: [1, 1, 1], to: [1.5, 1, 1], radius: 0.2}, material: wet}
   - {points: {file: points.npy, mass: 0.1}, material: own}
   - {mesh: {file: sledge.obj, scale: 0.5, rotate: {axis: [0, 1, 0], degrees: 30}, translate: [1, 1, 1]}, material: wet, sampling: poisson}
+emitters:
+  - {snowfall: {center: [1, 2, 1], size: [1, 1], rate: 1, velocity: [0, -1, 0]}, material: own, per_cell: 8, from: 0, until: 1}
+  - {gun: {position: [1, 1, 1], direction: [1, 1, 0], speed: 5, spread: 5, radius: 0.05, rate: 1}, material: wet}
+sinks:
+  - {box: {min: [0, 0, 0], max: [3, 0.3, 3]}, from: 0, until: 1}
+max_particles: 100000
 field: {size: [10, 10], cells: [64, 64], origin: [0, 0], material: own, ground: 0, depth: {image: depth.npy, metres: 0.5}, density: 100}
 bodies:
   - {plane: {point: [0, 0, 0], normal: [0, 1, 0]}, name: floor, friction: 0.5, color: [0, 0, 1]}
