@@ -61,17 +61,18 @@ void main() {
   vec3 normal = vec3(0.0);
   float open = 1.0, shown = 1.0;
 #if HAS_GRID_MASS
-  vec4 density = vec4(0.0);
 #if NODES_ACTIVE
   if (particle_cell[index] != 0xffffffffu)  // else it has come just now, and no block is known for it
 #endif
-    density = density_about(index, x);
-  // Where density falls off within a cell or two there is a surface; deep inside there is none.
-  normal = -density.xyz * grid_cell / max(density.w, 0.05 * look.w);
-  float steepness = length(normal);
-  shown = smoothstep(0.1, 0.3, steepness);
-  normal *= steepness > 0.0 ? min(1.0, 1.6 * steepness) / steepness : 0.0;
-  open = 1.0 - 0.45 * smoothstep(0.45, 1.05, density.w / look.w);
+  {
+    vec4 density = density_about(index, x);
+    // Where density falls off within a cell or two there is a surface; deep inside there is none.
+    normal = -density.xyz * grid_cell / max(density.w, 0.05 * look.w);
+    float steepness = length(normal);
+    shown = smoothstep(0.1, 0.3, steepness);
+    normal *= steepness > 0.0 ? min(1.0, 1.6 * steepness) / steepness : 0.0;
+    open = 1.0 - 0.45 * smoothstep(0.45, 1.05, density.w / look.w);
+  }
 #endif
 #if HAS_BODY_KIND
   open *= sky_left_by_bodies(x, normal, -1);

@@ -276,7 +276,8 @@ TEST_CASE("emitters and sinks are told of where the pipeline has no stage for th
   inputs.scene = scene.path;
   inputs.disable = {"mpm.emit", "mpm.remove"};
   std::string text;
-  for (const config::Diagnostic& each : app::load(inputs, "").diagnostics.all()) text += config::to_string(each) + "\n";
+  const app::Loaded loaded = app::load(inputs, "");
+  for (const config::Diagnostic& each : loaded.diagnostics.all()) text += config::to_string(each) + "\n";
   INFO(text);
   CHECK(text.find("emitters do nothing in this pipeline: it has no stage mpm.emit") != std::string::npos);
   CHECK(text.find("sinks do nothing in this pipeline: it has no stage mpm.remove") != std::string::npos);
