@@ -37,10 +37,9 @@ std::string state_in(const fs::path& checkpoint) {
   std::istringstream lines(read_file(checkpoint / "SHA256SUMS"));
   std::string state;
   for (std::string line; std::getline(lines, line);)
-    if (std::ranges::none_of(
-            std::array{"manifest.json", " active_blocks.", " block_", " particle_cell.", " order.", " packed_", " grid_",
-                       " active_tiles.", " flatten_tiles.", " leaving.", " waiting.", " woken."},
-            [&](const char* name) { return line.find(name) != std::string::npos; }))
+    if (std::ranges::none_of(std::array{"manifest.json", " active_blocks.", " block_", " particle_cell.", " order.", " packed_",
+                                        " grid_", " active_tiles.", " flatten_tiles.", " leaving.", " waiting.", " woken."},
+                             [&](const char* name) { return line.find(name) != std::string::npos; }))
       state += line + "\n";
   return state;
 }
