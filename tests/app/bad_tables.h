@@ -59,7 +59,7 @@ inline std::vector<Bad> bad_pipelines() {
       {"- mpm.deform", "- {repeat: {max: 3, until: @{buffer: residul, below: 1}}, stages: [mpm.deform]}", "no buffer 'residul'",
        false},
       {"  - mpm.seed\n  - bodies.place\n", "  - bodies.place\n  - mpm.clear_grid: {accumulate: fixed}\n  - @mpm.stress\n",
-       "reads 'material', which no stage of this pipeline writes; mpm.seed would", false},
+       "reads 'material', which no stage of this pipeline writes; mpm.emit or mpm.seed would", false},
       {"- mpm.grid_collide", "- mpm.grid_collide: {@node: all}", "mpm.grid_collide has no parameter 'node'; did you mean 'nodes'"},
       {"scene: scene.yaml", "scene: @scnee.yaml", "no such scene file", false},
       {"scene: scene.yaml", "scene: scene.yaml\n@scene: other.yaml", "duplicate key 'scene'"},
