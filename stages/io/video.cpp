@@ -14,6 +14,7 @@
 #include "stages/png.h"
 #include "stages/process.h"
 #include "stages/view_ports.h"
+#include "stages/writer.h"
 
 namespace firn::stages::io {
 namespace {
@@ -55,8 +56,14 @@ class Video final : public graph::HostStage {
     if (!encoder_) return;
     last_ = context.clock().frame;
     if (!first_) first_ = last_;
-    const Picture picture = picture_of(context.read("image"), view.width, view.height);
-    if (!encoder_->feed(std::as_bytes(std::span(picture.rgb)))) fail(encoder_->finish());
+    std::vector<std::byte> texels = context.read("image");
+    const std::size_t bytes = texels.size();
+    told([&] {
+      writer_.add(bytes, [this, texels = std::move(texels), width = view.width, height = view.height] {
+        const Picture picture = picture_of(texels, width, height);
+        if (!encoder_->feed(std::as_bytes(std::span(picture.rgb)))) throw EncoderGone{};
+      });
+    });
   }
 
   void flush() override {
@@ -149,7 +156,19 @@ class Video final : public graph::HostStage {
     encoder_.emplace(ffmpeg, arguments, "", log());
   }
 
+  // Pictures are handed to the encoder in the background, where nothing else is done with it: what becomes of it is decided here.
+  struct EncoderGone {};
+  template <class Call>
+  void told(Call call) {
+    try {
+      call();
+    } catch (const EncoderGone&) {
+      fail(encoder_->finish());
+    }
+  }
+
   void end_encoder() {
+    told([&] { writer_.finish(); });
     if (const int status = encoder_->finish(); status != 0) fail(status);
     encoder_.reset();
   }
@@ -193,6 +212,7 @@ class Video final : public graph::HostStage {
   std::optional<std::uint64_t> first_;  // frame of the part that is being written; none: it has no picture yet
   std::uint64_t last_ = 0;
   std::vector<fs::path> parts_;  // that are whole, in their order
+  Writer writer_;                // last, so that it ends first
 };
 
 }  // namespace
