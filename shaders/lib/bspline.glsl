@@ -71,7 +71,13 @@ vec4 spline_piece(int offset) {
 }
 vec2 spline_and_slope(vec4 piece, float f) {
 #if KERNEL_CUBIC
-  return vec2(((piece.w * f + piece.z) * f + piece.y) * f + piece.x, (3.0 * piece.w * f + 2.0 * piece.z) * f + piece.y);
+  // The piece that ends at f = 1 is taken from there, g^3 / 6: as a polynomial in f it would be nothing but rounding there, of either sign,
+  // and nodes that hardly any mass reaches would divide by that.
+  bool from_end = piece.y < 0.0;
+  float t = from_end ? 1.0 - f : f;
+  vec4 c = from_end ? vec4(0.0, 0.0, 0.0, 1.0) / 6.0 : piece;
+  float slope = (3.0 * c.w * t + 2.0 * c.z) * t + c.y;
+  return vec2(((c.w * t + c.z) * t + c.y) * t + c.x, from_end ? -slope : slope);
 #else
   return vec2(spline(piece.x + f), spline_slope(piece.x + f));
 #endif
