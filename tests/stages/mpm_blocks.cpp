@@ -75,6 +75,26 @@ TEST_CASE("gather_velocities gives the reference's mass and velocities, and stor
   }
 }
 
+// Weights are as small as 1e-9 there, and velocities are quotients of two of them.
+TEST_CASE("the mass of nodes that a particle hardly reaches is exact for its size, at both ends of a cell") {
+  INFO("seed " << seed());
+  for (const double place : {1.0 / 512, 511.0 / 512})
+    for (int axis = 0; axis < 3; ++axis) {
+      CAPTURE(place, axis);
+      RandomSnow snow(seed(), 1);
+      Vector3d& position = snow.particles.position.front();
+      Vector3d cells = (position - snow.grid.min) / snow.grid.h;
+      for (int i = 0; i < 3; ++i) cells[i] = std::floor(cells[i]) + (i == axis ? place : 0.5);
+      position = snow.grid.min + snow.grid.h * cells;
+      const Arrays out = run(snow, "  - mpm.sort: {nodes: active}\n  - mpm.gather_velocities: {kernel: cubic, form: texture}\n",
+                             gathered(snow), 1);
+      const std::vector<float> mass = whole(out, "grid_mass", snow.grid.nodes);
+      const std::vector<float> expected = flat(ref::particles_to_grid(snow.particles, snow.grid, ref::Kernel::cubic).mass);
+      for (std::size_t i = 0; i < expected.size(); ++i)
+        if (expected[i] > 0) REQUIRE(mass[i] == Approx(expected[i]).epsilon(0.02));
+    }
+}
+
 TEST_CASE("stored blocks and the whole grid give particles the same velocities and gradients") {
   INFO("seed " << seed());
   RandomSnow snow = lumps(seed(), 1500);
