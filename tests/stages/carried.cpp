@@ -7,23 +7,13 @@
 
 #include "app/arrays.h"
 #include "tests/catch.h"
+#include "tests/stages/ball_scene.h"
 #include "tests/stages/simulation.h"
 
 using namespace firn;
 using namespace firn::test;
 
 namespace {
-
-const char* const ball_text = R"(
-firn: 1
-name: ball
-time: {dt: 2.0e-4, end: 1}
-domain: {min: [0, 0, 0], max: [1, 1, 1], cell: 0.0625}
-materials: {ball: {density: 400, young: 1.4e5}}
-snow: [{sphere: {center: [0.5, 0.4, 0.5], radius: 0.2}, material: ball, velocity: [1, -2, 0.5]}]
-bodies:
-  - {plane: {point: [0, 0.2, 0], normal: [0, 1, 0]}, friction: 0.3}
-)";
 
 const char* const field_text = R"(
 firn: 1

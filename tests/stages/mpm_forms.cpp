@@ -9,6 +9,7 @@
 #include "stages/forms.h"
 #include "stages/mpm/gather_velocities.h"
 #include "stages/process.h"
+#include "tests/stages/ball_scene.h"
 #include "tests/stages/simulation.h"
 #include "tests/stages/stored_blocks.h"
 
@@ -37,17 +38,6 @@ RandomSnow crowd(std::uint64_t seed) {
     snow.particles.position[p] = single(Vector3d(snow.grid.h * Vector3d(9.7, 10.2, 11.9) + 0.1 * snow.particles.position[p]));
   return snow;
 }
-
-constexpr const char* const ball_text = R"(
-firn: 1
-name: ball
-time: {dt: 2.0e-4, end: 1}
-domain: {min: [0, 0, 0], max: [1, 1, 1], cell: 0.0625}
-materials: {ball: {density: 400, young: 1.4e5}}
-snow: [{sphere: {center: [0.5, 0.4, 0.5], radius: 0.2}, material: ball, velocity: [1, -2, 0.5]}]
-bodies:
-  - {plane: {point: [0, 0.2, 0], normal: [0, 1, 0]}, friction: 0.3}
-)";
 
 // A plan of mpm_snow with this form, never run.
 app::Loaded loaded_with(const std::string& form, const std::string& scene) {
