@@ -34,6 +34,13 @@ std::uint64_t turns_of(const execution::Execution& execution) {
   return turns;
 }
 
+// Processors that were idle are slow at first: a step of 14 ms took 21 ms for up to a second.
+void wake(std::vector<Running>& all) {
+  const auto start = std::chrono::steady_clock::now();
+  while (!all.empty() && std::chrono::steady_clock::now() - start < std::chrono::milliseconds(1500))
+    for (Running& running : all) running.run->steps(1);
+}
+
 void time_stages(Running& running) {
   execution::Execution& execution = *running.run->execution;
   execution.time_passes(true);
@@ -121,15 +128,16 @@ void run_in_turn(Bench& bench, const std::vector<BenchCase>& cases, const BenchP
     running.what = &one;
     const auto reason = why_not([&] {
       running.run = std::make_unique<BenchRun>(one.pipeline, one.scene, one.set, bench.device(), one.barriers_all);
-      running.run->steps(1);  // compiles
-      const double seconds = running.run->steps(std::max(1, pace.warm_up - 1));
-      running.steps = std::clamp(static_cast<int>(pace.seconds / seconds), pace.steps, std::max(pace.steps, 1000));
+      running.run->steps(pace.warm_up);
     });
     if (reason)
       bench.not_possible(one.name, *reason);
     else
       all.push_back(std::move(running));
   }
+  wake(all);
+  for (Running& running : all)
+    running.steps = std::clamp(static_cast<int>(pace.seconds / running.run->steps(1)), pace.steps, std::max(pace.steps, 1000));
   for (int run = 0; run < bench.runs(); ++run)
     for (Running& running : all) {
       const std::uint64_t turns = turns_of(*running.run->execution);

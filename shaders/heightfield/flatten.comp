@@ -1,34 +1,68 @@
 // Takes what every cell gives and adds what its neighbours give it, at their density [H 3.33]. A cell without snow takes the density of what
-// arrives.
-#include "heightfield/flatten_cell.glsl"
+// arrives. An invocation goes up a column of cells and keeps what it has read.
+#include "lib/cells.glsl"
 #include "lib/unbiased.glsl"
 
-// What the neighbour `from` gives to this cell, whose number among the neighbours of `from` is `back`: mass and height.
-vec2 taken(ivec2 from, int back) {
-  if (!in_field(from)) return vec2(0.0);
-  int j = cell_index(from);
-  vec2 gives = outflow_at(j);
-  if ((int(gives.y) >> back & 1) == 0) return vec2(0.0);
-  return gives.x * vec2(density[j], 1.0);  // a giver had snow, so that nobody changes its density now
+// Of three cells side by side: the height and the mass that each gives to every one of its receivers, and these, one bit each.
+struct Row {
+  vec3 height, mass;
+  ivec3 receivers;
+};
+
+Row row_of(ivec2 middle) {
+  Row row;
+#define READ(k)                                                                    \
+  {                                                                                \
+    ivec2 cell = middle + ivec2(k - 1, 0);                                         \
+    int i = cell_index(clamp(cell, ivec2(0), ivec2(cells_width, cells_height) - 1)); \
+    vec2 gives = outflow_at(i);                                                    \
+    row.receivers[k] = in_field(cell) ? int(gives.y) : 0;                          \
+    row.height[k] = gives.x;                                                       \
+    /* A giver had snow, so that nobody changes its density now. */                \
+    row.mass[k] = row.receivers[k] != 0 ? gives.x * density[i] : 0.0;              \
+  }
+  READ(0) READ(1) READ(2)
+  return row;
 }
 
 void main() {
   if (element_index() == 0u) moved[0] = uintBitsToFloat(moved_bits[0]);
-  ivec2 cell;
-  if (!own_cell(cell)) return;
-  int i = cell_index(cell);
-  vec2 own = outflow_at(i);
-  float given = own.x * float(bitCount(int(own.y)));
-  vec2 arrived = vec2(0.0);  // mass, height
-#define TAKE(n) arrived += taken(cell + neighbor_offsets[n], opposite_neighbor[n]);
-  FOR_NEIGHBORS(TAKE)
-  if (given == 0.0 && arrived.y == 0.0) return;
-  float before = depth[i];
-  if (arrived.x > 0.0 && !(before > 0.0)) density[i] = arrived.x / arrived.y;
-  float gained = arrived.x > 0.0 ? arrived.x / density[i] : 0.0;
-  depth[i] = max(unbiased_sum(before, gained - given, i), 0.0);
+#if CELLS_ACTIVE
+  // A group of 32 per tile.
+  const int cells_up = tile_edge / 2;
+  uint tile = group_number() < tiles_count ? flatten_tiles[group_number()] : no_tile;
+  if (tile == no_tile) return;
+  int width = tile_counts().x, lane = int(gl_LocalInvocationID.x);
+  ivec2 cell = tile_edge * ivec2(int(tile) % width, int(tile) / width) + ivec2(lane % tile_edge, lane / tile_edge * cells_up);
+#else
+  const int cells_up = 1;
+  ivec2 cell = cell_at(min(element_index(), cells_count - 1u));
+  if (element_index() >= cells_count) return;
+#endif
+  Row low = row_of(cell - ivec2(0, 1)), own = row_of(cell);
+  int done = 0;
+  bool gave = false;
+  do {
+    Row high = row_of(cell + ivec2(0, 1));
+    float given = own.height.y * float(bitCount(own.receivers.y));
+    vec2 arrived = vec2(0.0);  // mass, height
+#define TAKE(n, row, k) \
+  if ((row.receivers[k] >> opposite_neighbor[n] & 1) != 0) arrived += vec2(row.mass[k], row.height[k]);
+    TAKE(0, own, 0) TAKE(1, own, 2) TAKE(2, low, 1) TAKE(3, high, 1) TAKE(4, low, 0) TAKE(5, low, 2) TAKE(6, high, 0) TAKE(7, high, 2)
+    if (in_field(cell) && (given != 0.0 || arrived.y != 0.0)) {
+      int i = cell_index(cell);
+      float before = depth[i];
+      if (arrived.x > 0.0 && !(before > 0.0)) density[i] = arrived.x / arrived.y;
+      float gained = arrived.x > 0.0 ? arrived.x / density[i] : 0.0;
+      depth[i] = max(unbiased_sum(before, gained - given, i), 0.0);
+      gave = gave || given > 0.0;
+    }
+    low = own;
+    own = high;
+    ++cell.y;
+  } while (++done < cells_up);
 #if CELLS_ACTIVE
   // A tile that gave is listed again, so that nobody ever takes an old outflow for a new one.
-  if (given > 0.0) changed_tiles[tile_of(cell)] = 1u;
+  if (gave) changed_tiles[tile] = 1u;
 #endif
 }

@@ -64,5 +64,6 @@ void main() {
 #if HAS_BODY_KIND
   open *= sky_left_by_bodies(vec3(place.x, height, place.y), normalize(vec3(-slope.x, 1.0, -slope.y)), -1);
 #endif
-  field_surface[i] = vec4(slope, open, sun_over_snow(place, height));
+  field_slope[i] = slope;
+  field_light[i] = vec2(open, sun_over_snow(place, height));
 }

@@ -23,13 +23,13 @@ struct Cover {
 
 Cover cover_near(vec2 at) {
   Cells c = cells_near(at);
-  vec4 surface = vec4(0.0);
-  vec2 look = vec2(0.0);
+  vec2 slope = vec2(0.0), light = vec2(0.0), look = vec2(0.0);
   for (int i = 0; i < 4; ++i) {
-    surface += c.weights[i] * field_surface_at(c.index[i]);
+    slope += c.weights[i] * field_slope_at(c.index[i]);
+    light += c.weights[i] * field_light_at(c.index[i]);
     look += c.weights[i] * field_look_at(c.index[i]);
   }
-  return Cover(surface.xy, surface.z, surface.w, look.x, look.y);
+  return Cover(slope, light.x, light.y, look.x, look.y);
 }
 
 // 1 for snow, 0 for what has a colour of its own, as sand.

@@ -9,7 +9,7 @@ namespace firn::stages::heightfield {
 
 graph::StageSpec flatten() {
   using enum Access;
-  const auto passes = [](const char* kernel, int invocations_per_tile, const std::vector<graph::PortUse>& uses) {
+  const auto passes = [](const char* kernel, const std::vector<graph::PortUse>& uses) {
     std::vector<graph::PortUse> with_tiles = uses;
     with_tiles.push_back({"flatten_tiles", read});
     if (std::string_view(kernel) == "heightfield/flatten.comp") with_tiles.push_back({"changed_tiles", read_write});
@@ -17,7 +17,7 @@ graph::StageSpec flatten() {
                                     graph::Dispatch{.kernel = kernel,
                                                     .over = "",
                                                     .indirect = "flatten_groups",
-                                                    .group = invocations_per_tile,
+                                                    .group = 32,
                                                     .uses = with_tiles,
                                                     .when = {"cells", "active"}}};
   };
@@ -91,18 +91,16 @@ graph::StageSpec flatten() {
                                      {"flatten_count", read_write},
                                      {"flatten_groups", write}},
                             .when = {"cells", "active"}}},
-           passes("heightfield/flatten_outflow.comp", 32,
-                  {{"ground", read, graph::Usage::sampled},
-                   {"underside", read, graph::Usage::sampled},
-                   {"depth", read, graph::Usage::sampled},
-                   {"outflow", write},
-                   {"moved_bits", accumulate}}),
-           passes("heightfield/flatten.comp", tile_edge * tile_edge,
-                  {{"outflow", read, graph::Usage::sampled},
-                   {"depth", read_write},
-                   {"density", read_write},
-                   {"moved_bits", read},
-                   {"moved", write}})})};
+           passes("heightfield/flatten_outflow.comp", {{"ground", read, graph::Usage::sampled},
+                                                       {"underside", read, graph::Usage::sampled},
+                                                       {"depth", read, graph::Usage::sampled},
+                                                       {"outflow", write},
+                                                       {"moved_bits", accumulate}}),
+           passes("heightfield/flatten.comp", {{"outflow", read, graph::Usage::sampled},
+                                               {"depth", read_write},
+                                               {"density", read_write},
+                                               {"moved_bits", read},
+                                               {"moved", write}})})};
 }
 
 }  // namespace firn::stages::heightfield

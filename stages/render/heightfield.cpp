@@ -74,7 +74,8 @@ graph::StageSpec heightfield() {
                                         {"field_height", write, Usage::storage},
                                         {"field_look", write, Usage::storage}};
   std::vector<PortUse> of_light = view::sampled({"field_height", "body_kind", "body_size", "body_position", "body_orientation"});
-  of_light.push_back({"field_surface", write, Usage::storage});
+  of_light.push_back({"field_slope", write, Usage::storage});
+  of_light.push_back({"field_light", write, Usage::storage});
   // The most patches are (32 + 2)^2, with the ring round them. 15 in one instance make less than 2^16 vertices when cut 64 by 64;
   // Mesa's software renderer loses what goes beyond.
   const auto draw = [](const char* name, const char* fragment, std::vector<PortUse> uses) {
@@ -91,29 +92,30 @@ graph::StageSpec heightfield() {
                        .patch_vertices = 1,
                        .uses = std::move(uses)};
   };
-  const graph::Draw surface =
-      draw("surface", "render/heightfield.frag", view::sampled({"field_height", "field_surface", "field_look", "shadow_map"}));
+  const graph::Draw surface = draw("surface", "render/heightfield.frag",
+                                   view::sampled({"field_height", "field_slope", "field_light", "field_look", "shadow_map"}));
   graph::Draw lines = draw("lines", "render/heightfield_lines.frag", view::sampled({"field_height"}));
   lines.wireframe = true;
   lines.when = {"wireframe", "true"};
   std::vector<std::string> constants = view::constants();
   for (const char* name : {"field_min", "field_cell", "min_density", "max_density", "field_color"}) constants.emplace_back(name);
   const auto sampled = [](const char* name) { return stages::heightfield::port(name, read, Usage::sampled); };
-  return {
-      .name = "render.heightfield",
-      .doc = "The height field as tessellated patches, in sun and sky light; pressed snow is bluer and darker",
-      .equation = "[H 4.9]",
-      .ports = mpm::joined(
-          {{view::image(read_write, Usage::framebuffer), view::image_depth(read_write), sampled("ground"), sampled("depth"),
-            view::optional(sampled("density")), view::optional_shadow_map(),
-            own("field_height", ElementType::float1, "m", "height of the snow's surface"),
-            own("field_surface", ElementType::vec4, "m/m, m/m, 1, 1", "slopes along x and z; shares of sky and sun that arrive"),
-            own("field_look", ElementType::vec2, "m, 1", "depth of the snow; 0 at its least, 1 at its largest density")},
-           view::optional_shapes()}),
-      .parameters = parameters(),
-      .constants = constants,
-      .work = {graph::Dispatch{.kernel = "render/field_height.comp", .over = "cells", .uses = of_heights},
-               graph::Dispatch{.kernel = "render/field_light.comp", .over = "cells", .uses = of_light}, surface, lines}};
+  return {.name = "render.heightfield",
+          .doc = "The height field as tessellated patches, in sun and sky light; pressed snow is bluer and darker",
+          .equation = "[H 4.9]",
+          .ports = mpm::joined(
+              {{view::image(read_write, Usage::framebuffer), view::image_depth(read_write), sampled("ground"), sampled("depth"),
+                view::optional(sampled("density")), view::optional_shadow_map(),
+                own("field_height", ElementType::float1, "m", "height of the snow's surface"),
+                // 8 bytes a cell each, so that 4096 x 4096 cells fit where a storage block holds 128 MiB.
+                own("field_slope", ElementType::vec2, "m/m", "slopes along x and z"),
+                own("field_light", ElementType::vec2, "1", "shares of sky and sun that arrive"),
+                own("field_look", ElementType::vec2, "m, 1", "depth of the snow; 0 at its least, 1 at its largest density")},
+               view::optional_shapes()}),
+          .parameters = parameters(),
+          .constants = constants,
+          .work = {graph::Dispatch{.kernel = "render/field_height.comp", .over = "cells", .uses = of_heights},
+                   graph::Dispatch{.kernel = "render/field_light.comp", .over = "cells", .uses = of_light}, surface, lines}};
 }
 
 }  // namespace firn::stages::render

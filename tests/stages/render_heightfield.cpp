@@ -140,10 +140,10 @@ TEST_CASE("the slopes of a plane are those of the plane, up to the field's edges
   Shot shot = field_shot(scene);
   shot.write("depth", depths_by_cell([](int x, int z) { return 1 + 0.1 * (0.25 * x - 0.5 * z) + 3.2; }));
   shot.frame();
-  const std::vector<float> surface = shot.read("field_surface");
-  for (std::size_t i = 0; i < surface.size(); i += 4) {
-    CHECK(surface[i] == Approx(0.25).margin(1e-4));
-    CHECK(surface[i + 1] == Approx(-0.5).margin(1e-4));
+  const std::vector<float> slope = shot.read("field_slope");
+  for (std::size_t i = 0; i < slope.size(); i += 2) {
+    CHECK(slope[i] == Approx(0.25).margin(1e-4));
+    CHECK(slope[i + 1] == Approx(-0.5).margin(1e-4));
   }
 }
 
@@ -193,14 +193,14 @@ TEST_CASE("a wall of snow shades what lies behind it") {
   Shot shot = field_shot(scene);
   shot.write("depth", depths_by_cell([](int x, int) { return x >= 30 && x < 33 ? 1.0 : 0.2; }));
   shot.frame();
-  const std::vector<float> surface = shot.read("field_surface");
-  const auto sun = [&](int x) { return surface[static_cast<std::size_t>(4 * (32 * 64 + x) + 3)]; };
+  const std::vector<float> light = shot.read("field_light");
+  const auto sun = [&](int x) { return light[static_cast<std::size_t>(2 * (32 * 64 + x) + 1)]; };
   CHECK(sun(26) < 0.05);  // the shadow reaches 0.8 m from the wall at 3.0 m
   CHECK(sun(23) < 0.3);
   CHECK(sun(19) > 0.95);
   CHECK(sun(35) > 0.95);
   // In the corner at the wall's foot less of the sky is seen.
-  const auto sky = [&](int x) { return surface[static_cast<std::size_t>(4 * (32 * 64 + x) + 2)]; };
+  const auto sky = [&](int x) { return light[static_cast<std::size_t>(2 * (32 * 64 + x))]; };
   CHECK(sky(33) < 0.8);
   CHECK(sky(10) > 0.97);
 }
