@@ -77,6 +77,10 @@ ProfiledPass describe(const execution::Execution& execution, const Planned& plan
   ProfiledPass pass{stage.label, stage.spec.doc, stage.spec.equation, work_name(work), "", {}, {}, false};
   Walked walked;
   if (const auto* dispatch = std::get_if<graph::Dispatch>(&work)) {
+    if (!dispatch->needs.empty() && graph::element_count(dispatch->needs, plan.environment) == 0) {
+      pass.elements = fmt::format("left out, as there are no {}", dispatch->needs);
+      return pass;
+    }
     if (dispatch->indirect.empty()) {
       pass.elements =
           fmt::format("over {}, {}", dispatch->over, graph::element_count(dispatch->over, plan.environment).value_or(0));

@@ -78,6 +78,7 @@ json work_json(const graph::Work& work) {
       result["over"] = dispatch->over;
     else
       result["indirect"] = dispatch->indirect;
+    if (!dispatch->needs.empty()) result["needs"] = dispatch->needs;
     for (const graph::Arithmetic& one : dispatch->arithmetic) {
       json entry = {{"per", one.per}, {"operations", one.operations}};
       if (!one.when.name.empty()) entry["when"] = {{one.when.name, one.when.value}};
@@ -128,7 +129,10 @@ std::string describe(const graph::Work& work) {
   if (const auto* draw = std::get_if<graph::Draw>(&work))
     text = fmt::format("draws {} ({} and {}), {} vertices for each of {}", draw->name, draw->vertex, draw->fragment, draw->vertices,
                        draw->instances);
-  return with(text, when_text(condition(work)));
+  std::string note = when_text(condition(work));
+  if (const auto* dispatch = std::get_if<graph::Dispatch>(&work); dispatch && !dispatch->needs.empty())
+    note += fmt::format("{}only if there are {}", note.empty() ? "" : ", ", dispatch->needs);
+  return with(text, note);
 }
 
 std::string describe_range(const graph::ParameterSpec& spec) {

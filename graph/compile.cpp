@@ -167,7 +167,7 @@ class Compiler {
   void check_work_domains(const StageUse& use, const StageSpec& spec) {
     for (const Work& work : spec.work) {
       std::vector<DomainText> domains;
-      if (const auto* dispatch = std::get_if<Dispatch>(&work)) domains = {dispatch->over};
+      if (const auto* dispatch = std::get_if<Dispatch>(&work)) domains = {dispatch->over, dispatch->needs};
       if (const auto* draw = std::get_if<Draw>(&work)) domains = {draw->instances, draw->vertices};
       for (const DomainText& domain : domains)
         if (!domain.empty() && !element_count(domain, plan_.environment)) unknown_domain(use.place, use, domain);

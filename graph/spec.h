@@ -76,6 +76,7 @@ struct Dispatch {
   DomainText over;                 // invocations, one per element; empty where `indirect` is given
   std::string indirect = {};       // port with three uint: groups
   int group = 64;                  // invocations per work group
+  DomainText needs = {};           // nothing is done where this domain has no elements
   std::vector<PortUse> uses = {};  // empty: every port of the stage
   Condition when = {};
   std::vector<Arithmetic> arithmetic = {};  // empty: not known

@@ -202,8 +202,10 @@ Kernel make_kernel(const Plan& plan, int stage_index, int work_index, const Memo
 void size_kernel(Kernel& kernel, const Plan& plan, int stage, int work) {
   const auto count = [&](const std::string& domain) { return element_count(domain, plan.environment).value_or(0); };
   const graph::Work& of_stage = stage_of(plan, stage).spec.work[static_cast<std::size_t>(work)];
-  if (const auto* dispatch = std::get_if<Dispatch>(&of_stage); dispatch && !dispatch->over.empty())
-    kernel.elements = count(dispatch->over);
+  if (const auto* dispatch = std::get_if<Dispatch>(&of_stage)) {
+    if (!dispatch->over.empty()) kernel.elements = count(dispatch->over);
+    kernel.idle = !dispatch->needs.empty() && count(dispatch->needs) == 0;
+  }
   if (const auto* draw = std::get_if<Draw>(&of_stage)) {
     kernel.elements = count(draw->instances);
     kernel.vertices = count(draw->vertices);
@@ -249,6 +251,7 @@ void bind_kernel(const PlannedStage& stage, const Kernel& kernel, const Memory& 
 
 void run_kernel(const PlannedStage& stage, const graph::Run& run, const Kernel& kernel, const Memory& memory,
                 const StageBlocks& blocks) {
+  if (kernel.idle) return;
   bind_kernel(stage, kernel, memory, blocks);
   const graph::Work& work = stage.spec.work[static_cast<std::size_t>(run.work)];
   if (const auto* dispatch = std::get_if<Dispatch>(&work)) {

@@ -41,6 +41,7 @@ struct Kernel {
   gpu::Framebuffer target;     // draws
   std::uint64_t elements = 0;  // dispatches: invocations; draws: instances
   std::uint64_t vertices = 0;
+  bool idle = false;  // a dispatch that needs elements of a domain without any
 };
 
 // All of it but the program (programs.h).

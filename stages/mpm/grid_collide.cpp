@@ -5,6 +5,8 @@
 namespace firn::stages::mpm {
 
 graph::StageSpec grid_collide() {
+  std::vector<graph::Work> work = over_nodes("mpm/grid_collide.comp");
+  for (graph::Work& one : work) std::get<graph::Dispatch>(one).needs = "bodies";
   return {.name = "mpm.grid_collide",
           .doc = "Rigid bodies act on the nodes inside them, with friction",
           .equation = "[M 4.4, 3.4 step 5]",
@@ -12,7 +14,7 @@ graph::StageSpec grid_collide() {
                            bodies(Access::read, Usage::sampled), node_choice_ports()}),
           .parameters = {nodes_parameter()},
           .constants = {"grid_min", "grid_cell", "grid_nodes"},
-          .work = over_nodes("mpm/grid_collide.comp")};
+          .work = work};
 }
 
 }  // namespace firn::stages::mpm

@@ -10,7 +10,7 @@ graph::StageSpec particle_collide() {
           .equation = "[M 4.4, 3.4 step 9]",
           .ports = joined(
               {{position(Access::read, Usage::sampled), velocity(Access::read_write)}, bodies(Access::read, Usage::sampled)}),
-          .work = {graph::Dispatch{.kernel = "mpm/particle_collide.comp", .over = "particles"}}};
+          .work = {graph::Dispatch{.kernel = "mpm/particle_collide.comp", .over = "particles", .needs = "bodies"}}};
 }
 
 }  // namespace firn::stages::mpm

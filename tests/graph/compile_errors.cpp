@@ -159,6 +159,15 @@ TEST_CASE("a kernel over an unknown domain is an error too") {
         Lines{"p.yaml:2:8: error: demo.odd works on 'bodies', which is not known here: the scene has no bodies"});
 }
 
+TEST_CASE("a kernel that needs elements of an unknown domain is an error too") {
+  graph::Registry registry = made_up_registry();
+  graph::StageSpec spec = stage("demo.odd", {port("x", graph::Access::read_write)});
+  spec.work = {graph::Dispatch{.kernel = "odd.comp", .over = "1", .needs = "bodies"}};
+  registry.add(spec);
+  CHECK(compiled("firn: 1\nstep: [demo.odd]\n", {}, registry).messages ==
+        Lines{"p.yaml:2:8: error: demo.odd works on 'bodies', which is not known here: the scene has no bodies"});
+}
+
 TEST_CASE("a constant without a value is an error with the environment's reason") {
   CHECK(messages("firn: 1\nsetup: [demo.fill]\nstep:\n  - demo.needy\n") ==
         Lines{"p.yaml:4:5: error: demo.needy needs 'density', which is not known here: the scene has no field"});

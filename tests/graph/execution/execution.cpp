@@ -75,6 +75,8 @@ Registry made_up_stages() {
   add_array("test.drain_listed", ElementType::int1, {four("rest", Access::read_write), counts},
             {Dispatch{.kernel = folder + "list.comp", .over = "1", .uses = {{"counts", Access::write}}},
              Dispatch{.kernel = folder + "drain.comp", .over = "", .indirect = "counts", .uses = {{"rest", Access::read_write}}}});
+  add_array("test.drain_if_bodies", ElementType::int1, {four("rest", Access::read_write)},
+            {Dispatch{.kernel = folder + "drain.comp", .over = "4", .needs = "bodies"}});
   add("test.start", "start.comp", {port("left", Access::write)}, {});
   add("test.count", "count.comp", {port("runs", Access::read_write), port("left", Access::read_write)}, {});
   add("test.faulty", "faulty.comp", {port("runs", Access::read)}, {Fault::not_a_number});
@@ -82,7 +84,8 @@ Registry made_up_stages() {
   return registry;
 }
 
-std::unique_ptr<execution::Execution> executed(const std::string& yaml, int steps, const PlanOptions& options = {}) {
+std::unique_ptr<execution::Execution> executed(const std::string& yaml, int steps, const PlanOptions& options = {},
+                                               std::uint64_t bodies = 0) {
   const auto file = std::filesystem::temp_directory_path() / ("firn-execution-" + std::to_string(getpid()) + ".yaml");
   std::ofstream(file) << yaml;
   config::Diagnostics diagnostics;
@@ -91,6 +94,7 @@ std::unique_ptr<execution::Execution> executed(const std::string& yaml, int step
   const Registry registry = made_up_stages();
   Environment environment;
   environment.provided = {"runs", "left", "rest"};
+  environment.domains["bodies"] = {.count = bodies};
   const Plan plan = compile(pipeline, registry, environment, diagnostics, options);
   config::throw_if_errors(diagnostics);
   auto execution = std::make_unique<execution::Execution>(
@@ -111,6 +115,18 @@ float value(const execution::Execution& execution, const std::string& buffer) {
 TEST_CASE("a repeat runs its stages as often as it says") {
   const auto execution = executed("firn: 1\nstep:\n  - repeat: 5\n    stages: [test.count]\n", 3);
   CHECK(value(*execution, "runs") == 15);
+}
+
+TEST_CASE("a kernel that needs bodies does nothing where there are none, and works where there are some") {
+  const std::string yaml = "firn: 1\nsetup: [test.fill_int]\nstep: [test.drain_if_bodies]\n";
+  const auto rest = [](const execution::Execution& execution) {
+    std::int32_t number = 0;
+    std::memcpy(&number, execution.read("rest").data(), sizeof number);
+    return number;
+  };
+  const std::int32_t untouched = rest(*executed(yaml, 0));
+  CHECK(rest(*executed(yaml, 1)) == untouched);
+  CHECK(rest(*executed(yaml, 1, {}, 2)) < untouched);
 }
 
 TEST_CASE("a repeat ends as soon as the watched buffer is below the limit") {
