@@ -140,6 +140,7 @@ void run_in_turn(Bench& bench, const std::vector<BenchCase>& cases, const BenchP
     running.steps = std::clamp(static_cast<int>(pace.seconds / running.run->steps(1)), pace.steps, std::max(pace.steps, 1000));
   for (int run = 0; run < bench.runs(); ++run)
     for (Running& running : all) {
+      if (all.size() > 1) running.run->steps(1);  // the others have taken the caches
       const std::uint64_t turns = turns_of(*running.run->execution);
       running.seconds.push_back(running.run->steps(running.steps));
       running.turns += turns_of(*running.run->execution) - turns;

@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "gpu/denormals.h"
 #include "gpu/device.h"
 
 namespace firn::gpu {
@@ -113,6 +114,7 @@ std::vector<EglPlace> egl_places() {
 }
 
 EglContext::EglContext(const EglPlace& place) {
+  const DenormalsAsZero mode;  // a software renderer starts its threads here
   display_ = eglGetPlatformDisplayEXT(place.platform, place.native, nullptr);
   if (display_ == EGL_NO_DISPLAY) throw DeviceError(fmt::format("eglGetPlatformDisplay failed ({})", egl_error()));
   // Never terminated: EGL has one display per device and process and counts no users, so terminating it would take along the
