@@ -95,7 +95,8 @@ struct Draw {
   DomainText vertices = "3";
   Topology topology = Topology::triangles;
   int patch_vertices = 4;
-  bool clear = false;  // targets to 0 and the depth to 1 beforehand
+  // Beforehand the depth to 1, or where there is none the colors to 0. Beside a depth, colors are void where it is still 1.
+  bool clear = false;
   bool depth_write = true;
   bool wireframe = false;
   std::vector<PortUse> uses = {};

@@ -1,4 +1,5 @@
-// The drawn map as arrays. Row 0 of the map is the smallest z, as it is of the arrays. Nothing drawn: depth 1, as it was cleared.
+// The drawn map as arrays. Row 0 of the map is the smallest z, as it is of the arrays. Nothing drawn: depth 1, as it was cleared, and the
+// map is void.
 #include "lib/own_cell.glsl"
 
 void main() {
