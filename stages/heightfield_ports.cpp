@@ -122,16 +122,28 @@ std::vector<Port> cell_choice_ports() {
   return result;
 }
 
-std::vector<graph::Work> over_cells(const std::string& kernel, std::vector<graph::PortUse> uses) {
+namespace {
+
+std::vector<graph::Work> over_tiles(const std::string& kernel, std::vector<graph::PortUse> uses, int group) {
   std::vector<graph::PortUse> with_tiles = uses;
   with_tiles.push_back({"active_tiles", Access::read});
   return {graph::Dispatch{.kernel = kernel, .over = "cells", .uses = std::move(uses), .when = {"cells", "all"}},
           graph::Dispatch{.kernel = kernel,
                           .over = "",
                           .indirect = "active_tile_groups",
-                          .group = tile_edge * tile_edge,
+                          .group = group,
                           .uses = std::move(with_tiles),
                           .when = {"cells", "active"}}};
+}
+
+}  // namespace
+
+std::vector<graph::Work> over_cells(const std::string& kernel, std::vector<graph::PortUse> uses) {
+  return over_tiles(kernel, std::move(uses), tile_edge * tile_edge);
+}
+
+std::vector<graph::Work> over_columns(const std::string& kernel, std::vector<graph::PortUse> uses) {
+  return over_tiles(kernel, std::move(uses), columns_of_tile);
 }
 
 std::vector<graph::ParameterSpec> direction_parameters(double k) {

@@ -27,6 +27,8 @@ graph::ParameterSpec cells_parameter();
 std::vector<Port> cell_choice_ports();
 // A dispatch with one invocation per cell of that choice.
 std::vector<graph::Work> over_cells(const std::string& kernel, std::vector<graph::PortUse> uses);
+// With one for half a tile's edge of cells, one above another (lib/own_column.glsl); of all cells, one for each.
+std::vector<graph::Work> over_columns(const std::string& kernel, std::vector<graph::PortUse> uses);
 
 // --- how strongly a body pushes to a side [H 3.12-3.19] ---
 std::vector<graph::ParameterSpec> direction_parameters(double k);
@@ -37,6 +39,7 @@ std::vector<std::string> field_constants(std::initializer_list<const char*> more
 // Several lists of work one after another.
 std::vector<graph::Work> sequence(std::initializer_list<std::vector<graph::Work>> lists);
 
-inline constexpr int tile_edge = 16;  // cells; shaders/lib/cells.glsl has the same
+inline constexpr int tile_edge = 16;                   // cells; shaders/lib/cells.glsl has the same
+inline constexpr int columns_of_tile = 2 * tile_edge;  // each half as long; shaders/lib/own_column.glsl has the same
 
 }  // namespace firn::stages::heightfield

@@ -1,6 +1,7 @@
 // Takes what every cell gives and adds what its neighbours give it, at their density [H 3.33]. A cell without snow takes the density of what
 // arrives. An invocation goes up a column of cells and keeps what it has read.
-#include "lib/cells.glsl"
+#define OWN_TILES flatten_tiles
+#include "lib/own_column.glsl"
 #include "lib/unbiased.glsl"
 
 // Of three cells side by side: the height and the mass that each gives to every one of its receivers, and these, one bit each.
@@ -27,17 +28,10 @@ Row row_of(ivec2 middle) {
 
 void main() {
   if (element_index() == 0u) moved[0] = uintBitsToFloat(moved_bits[0]);
+  ivec2 cell;
+  if (!own_column(cell)) return;
 #if CELLS_ACTIVE
-  // A group of 32 per tile.
-  const int cells_up = tile_edge / 2;
-  uint tile = group_number() < tiles_count ? flatten_tiles[group_number()] : no_tile;
-  if (tile == no_tile) return;
-  int width = tile_counts().x, lane = int(gl_LocalInvocationID.x);
-  ivec2 cell = tile_edge * ivec2(int(tile) % width, int(tile) / width) + ivec2(lane % tile_edge, lane / tile_edge * cells_up);
-#else
-  const int cells_up = 1;
-  ivec2 cell = cell_at(min(element_index(), cells_count - 1u));
-  if (element_index() >= cells_count) return;
+  uint tile = tile_of(cell);
 #endif
   Row low = row_of(cell - ivec2(0, 1)), own = row_of(cell);
   int done = 0;
@@ -60,7 +54,7 @@ void main() {
     low = own;
     own = high;
     ++cell.y;
-  } while (++done < cells_up);
+  } while (++done < column_cells);
 #if CELLS_ACTIVE
   // A tile that gave is listed again, so that nobody ever takes an old outflow for a new one.
   if (gave) changed_tiles[tile] = 1u;

@@ -1,6 +1,7 @@
 // How much snow every cell gives to each of its receivers [H 3.29-3.33]: those of its 8 neighbours that are lower and have no body in the way.
 // An invocation goes up a column of cells and keeps what it has read.
-#include "lib/cells.glsl"
+#define OWN_TILES flatten_tiles
+#include "lib/own_column.glsl"
 
 // Of three cells side by side: surfaces and undersides. Outside the field all is too high to receive.
 struct Row {
@@ -56,18 +57,8 @@ vec2 outflow_of(float snow, Row low, Row own, Row high) {
 }
 
 void main() {
-#if CELLS_ACTIVE
-  // A group of 32 per tile.
-  const int cells_up = tile_edge / 2;
-  uint tile = group_number() < tiles_count ? flatten_tiles[group_number()] : no_tile;
-  if (tile == no_tile) return;
-  int width = tile_counts().x, lane = int(gl_LocalInvocationID.x);
-  ivec2 cell = tile_edge * ivec2(int(tile) % width, int(tile) / width) + ivec2(lane % tile_edge, lane / tile_edge * cells_up);
-#else
-  const int cells_up = 1;
-  ivec2 cell = cell_at(min(element_index(), cells_count - 1u));
-  if (element_index() >= cells_count) return;
-#endif
+  ivec2 cell;
+  if (!own_column(cell)) return;
   Row low = row_of(cell - ivec2(0, 1)), own = row_of(cell);
   int done = 0;
   do {
@@ -79,5 +70,5 @@ void main() {
     low = own;
     own = high;
     ++cell.y;
-  } while (++done < cells_up);
+  } while (++done < column_cells);
 }

@@ -1,3 +1,2 @@
 #define ADDING
-#define EACH add
 #include "heightfield/push_addends.glsl"

@@ -1,18 +1,18 @@
+// What a cell adds to the sums of the body that displaces its snow, and of the body that it stands beside.
 #include "heightfield/push_sums.glsl"
-#include "lib/own_cell.glsl"
-#include "lib/body_sums.glsl"
+#include "lib/own_column.glsl"
 
-void for_each_addend() {
-  ivec2 cell;
-  if (!own_cell(cell)) return;
-  int i = cell_index(cell), body = owner[i], around = contour_owner[i];
-  if (displaced[i] > 0.0 && body >= 0 && body < int(bodies_count)) {
-    EACH(body, 0, displaced[i]);
+uint lowest_body(int i) { return min(uint(owner[i]), uint(contour_owner[i])); }
+
+void cell_addends(ivec2 cell, int i, out ivec4 bodies, out vec4 values) {
+  int pushes = displaced[i] > 0.0 ? owner[i] : -1;
 #if HAS_DISPLACED_HEIGHT
-    EACH(body, 1, displaced_height[i]);
+  bodies = ivec4(pushes, pushes, contour_owner[i], -1);
+  values = vec4(displaced[i], displaced_height[i], contour_weight[i], 0.0);
+#else
+  bodies = ivec4(pushes, -1, contour_owner[i], -1);
+  values = vec4(displaced[i], 0.0, contour_weight[i], 0.0);
 #endif
-  }
-  if (around >= 0 && around < int(bodies_count)) EACH(around, 2, contour_weight[i]);
 }
 
-void main() { for_each_addend(); }
+#include "lib/column_sums.glsl"

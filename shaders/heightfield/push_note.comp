@@ -1,3 +1,2 @@
 #define NOTING
-#define EACH note
 #include "heightfield/push_addends.glsl"

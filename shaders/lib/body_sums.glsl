@@ -1,15 +1,8 @@
 // Sums over the cells of each body that have the same bits in whatever order they are added: whole numbers of steps, in two words. The size
 // of a step follows from the largest addend and the number of addends, which a pass before must have noted; so nothing can overflow, and
 // at least 31 bits of each addend count for up to 65536 of them.
-// Before including: SUM_PEAKS, SUM_COUNTS and SUM_WORDS name the buffers; four sums (slots 0..3) per body.
+// Before including: SUM_PEAKS, SUM_COUNTS and SUM_WORDS name the buffers; four sums (slots 0..3) per body. lib/column_sums.glsl fills them.
 
-#ifdef NOTING
-void note(int body, int slot, float value) {
-  int at = 4 * body + slot;
-  atomicMax(SUM_PEAKS[at], floatBitsToUint(abs(value)));
-  atomicAdd(SUM_COUNTS[at], 1u);
-}
-#else
 // The power of two that a value is divided by so that its size is at most 1.
 float sum_unit(int at) {
   int exponent;
@@ -19,17 +12,7 @@ float sum_unit(int at) {
 // Of 2^bits addends, each may have 31 - bits bits in the upper word and 32 - bits in the lower one.
 int spare_bits(int at) { return findMSB(max(SUM_COUNTS[at], 1u)) + 1; }
 
-#ifdef ADDING
-void add(int body, int slot, float value) {
-  int at = 4 * body + slot;
-  if (SUM_PEAKS[at] == 0u) return;
-  int bits = spare_bits(at);
-  float upper = ldexp(value / sum_unit(at), 31 - bits);
-  float whole = floor(upper);
-  atomicAdd(SUM_WORDS[2 * at], uint(int(whole)));
-  atomicAdd(SUM_WORDS[2 * at + 1], uint(ldexp(upper - whole, 32 - bits)));
-}
-#else
+#if !defined(NOTING) && !defined(ADDING)
 float total(int body, int slot) {
   int at = 4 * body + slot;
   if (SUM_PEAKS[at] == 0u) return 0.0;
@@ -40,5 +23,4 @@ float total(int body, int slot) {
   uint rest = lower & ((1u << uint(32 - bits)) - 1u);
   return (ldexp(float(upper), bits - 31) + ldexp(float(rest), 2 * bits - 63)) * sum_unit(at);
 }
-#endif
 #endif

@@ -17,7 +17,7 @@ graph::StageSpec flatten() {
                                     graph::Dispatch{.kernel = kernel,
                                                     .over = "",
                                                     .indirect = "flatten_groups",
-                                                    .group = 32,
+                                                    .group = columns_of_tile,
                                                     .uses = with_tiles,
                                                     .when = {"cells", "active"}}};
   };
