@@ -11,6 +11,7 @@
 
 #include "config/nearest.h"
 #include "config/node.h"
+#include "config/parsed.h"
 #include "config/syntax_errors.h"
 #include "config/text.h"
 #include "config/tree_builder.h"
@@ -70,9 +71,13 @@ std::optional<std::string> read(const std::filesystem::path& path, Diagnostics& 
 }  // namespace
 
 Node parse(std::string_view text, const std::string& file, Diagnostics& diagnostics) {
+  return parse_broken(text, file, diagnostics).root;
+}
+
+Parsed parse_broken(std::string_view text, const std::string& file, Diagnostics& diagnostics) {
   const std::string normal = normalise(text);
   const Lines lines(normal, file);
-  if (!is_text(normal, lines, diagnostics)) return {};
+  if (!is_text(normal, lines, diagnostics)) return {{}, Place{file, 1, 1}};
   TreeBuilder builder(lines, diagnostics);
   std::optional<Diagnostic> failure;
   try {
@@ -88,13 +93,15 @@ Node parse(std::string_view text, const std::string& file, Diagnostics& diagnost
   if (const auto quote_mark = unclosed_quote(normal, builder, lines)) {
     failure = {Severity::error, *quote_mark, "the text that begins with this quote is never closed"};
   }
-  Node root = builder.tree(!failure);
+  const std::optional<Place> bracket = builder.outermost_open_bracket();
+  Parsed parsed{builder.tree(!failure), {}};
   if (failure) {
     diagnostics.error(failure->place, failure->text);
+    parsed.broken_at = bracket.value_or(failure->place);
   } else if (!builder.has_document()) {
     diagnostics.error({file, 0, 0}, "the file is empty");
   }
-  return root;
+  return parsed;
 }
 
 Node load(const std::filesystem::path& path, Diagnostics& diagnostics) {

@@ -208,6 +208,11 @@ TreeBuilder::Open TreeBuilder::innermost_open(Node::Kind kind, bool flow) const 
   return {};
 }
 
+std::optional<Place> TreeBuilder::outermost_open_bracket() const {
+  const auto index = std::find_if(open_.begin(), open_.end(), [&](std::size_t open) { return elements_[open].flow; });
+  return index == open_.end() ? std::nullopt : std::optional(place(elements_[*index].mark));
+}
+
 std::optional<YAML::Mark> TreeBuilder::last_scalar() const {
   const auto last = std::find_if(elements_.rbegin(), elements_.rend(),
                                  [](const Element& element) { return element.kind == Node::Kind::scalar && !element.copied; });

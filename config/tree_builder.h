@@ -42,6 +42,7 @@ class TreeBuilder : public YAML::EventHandler {
     bool flow = false;
   };
   [[nodiscard]] Open innermost_open(Node::Kind kind, bool flow) const;
+  [[nodiscard]] std::optional<Place> outermost_open_bracket() const;
   [[nodiscard]] int last_line() const;                          // of the last event, from 1
   [[nodiscard]] std::optional<YAML::Mark> last_scalar() const;  // where it, or its tag or anchor, begins
   [[nodiscard]] bool has_document() const { return documents_ > 0; }

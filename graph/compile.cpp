@@ -10,6 +10,7 @@
 #include "graph/barriers.h"
 #include "graph/buffer_uses.h"
 #include "graph/glsl.h"
+#include "graph/lacking.h"
 #include "graph/listed_domains.h"
 #include "graph/repeats.h"
 #include "graph/single_use.h"
@@ -38,6 +39,7 @@ class Compiler {
     phase(pipeline_.setup, plan_.setup, Phase::setup);
     phase(pipeline_.step, plan_.step, Phase::step);
     phase(pipeline_.frame, plan_.frame, Phase::frame);
+    lacking_.tell(diagnostics_);
     check_buffers(plan_, uses_, registry_, diagnostics_);
     check_listed_domains(plan_, diagnostics_);
     if (diagnostics_.has_errors()) return std::move(plan_);
@@ -139,19 +141,26 @@ class Compiler {
     return known;
   }
 
-  // Domains and constants have names of their own.
-  [[nodiscard]] std::string why_missing(const std::string& name, const std::vector<std::string>& known) const {
-    const auto reason = plan_.environment.missing.find(name);
-    return reason == plan_.environment.missing.end() ? config::suggestion(name, known) : ": " + reason->second;
+  // A domain or constant without a value. What the scene lacks is told at the end, once; a name that the head of a stage's file
+  // misspells is told there.
+  void unknown(const StageUse& use, const Place& place, const std::string& name, const std::string& text,
+               const std::vector<std::string>& known) {
+    if (const auto reason = plan_.environment.missing.find(name); reason != plan_.environment.missing.end()) {
+      lacking_.note(reason->second, place, use.stage, name, text);
+      return;
+    }
+    std::vector<Place> places{place};
+    if (const auto file = pipeline_.stage_files.find(use.stage); file != pipeline_.stage_files.end())
+      if (std::vector<Place> in_head = places_in_head(file->second, name); !in_head.empty()) places = std::move(in_head);
+    for (const Place& at : places) diagnostics_.error(at, text + config::suggestion(name, known));
   }
 
   void check_constants(const StageUse& use, const StageSpec& spec) {
     std::vector<std::string> known;
     for (const Constant& constant : plan_.environment.constants) known.push_back(constant.name);
     for (const std::string& constant : spec.constants)
-      if (plan_.environment.constant(constant) == nullptr)
-        diagnostics_.error(
-            use.place, fmt::format("{} needs '{}', which is not known here{}", spec.name, constant, why_missing(constant, known)));
+      if (plan_.environment.constant(constant) == nullptr && is_new(use, constant))
+        unknown(use, use.place, constant, fmt::format("{} needs '{}', which is not known here", spec.name, constant), known);
   }
 
   // Once per stage, however many ports have the domain.
@@ -159,9 +168,13 @@ class Compiler {
     const std::string base = base_domain(domain);
     std::vector<std::string> known;
     for (const auto& [name, size] : plan_.environment.domains) known.push_back(name);
-    if (unknown_domains_.insert(use.label + " " + base).second)
-      diagnostics_.error(place,
-                         fmt::format("{} works on '{}', which is not known here{}", use.stage, base, why_missing(base, known)));
+    if (is_new(use, base))
+      unknown(use, place, base, fmt::format("{} works on '{}', which is not known here", use.stage, base), known);
+  }
+
+  // Uses of a stage's file share one head.
+  bool is_new(const StageUse& use, const std::string& name) {
+    return unknown_.insert((pipeline_.stage_files.contains(use.stage) ? use.stage : use.label) + " " + name).second;
   }
 
   void check_work_domains(const StageUse& use, const StageSpec& spec) {
@@ -266,7 +279,8 @@ class Compiler {
   const PlanOptions options_;
   Plan plan_;
   BufferUses uses_;
-  std::set<std::string> unknown_domains_;
+  std::set<std::string> unknown_;
+  Lacking lacking_;
   bool too_many_buffers_ = false;
   const Traffic traffic_;
 };

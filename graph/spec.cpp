@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <initializer_list>
 #include <set>
+#include <utility>
+
+#include "graph/spec_problems.h"
 
 namespace firn::graph {
 namespace {
@@ -19,35 +22,58 @@ const std::set<std::string> reserved{"bind", "every", "enable", "as", "stage", "
 // Names that every kernel has (glsl.h).
 const std::set<std::string> clock_names{"dt", "time", "step", "frame"};
 
-void check_parameter(const ParameterSpec& parameter, std::vector<std::string>& found) {
-  const auto wrong = [&](std::string_view text) { found.push_back(fmt::format("parameter {}: {}", parameter.name, text)); };
-  if (!is_name(parameter.name)) wrong("its name may hold a-z, 0-9 and _");
-  if (reserved.contains(parameter.name) || clock_names.contains(parameter.name)) wrong("its name is reserved");
-  if (parameter.doc.empty()) wrong("has no doc");
+// A count, a domain, or one scaled (DomainText).
+bool is_domain_text(std::string_view text) {
+  const std::size_t sign = text.find_first_of("*/");
+  const auto is_count = [](std::string_view part) {
+    return !part.empty() && part != "0" && std::ranges::all_of(part, [](char c) { return c >= '0' && c <= '9'; });
+  };
+  const std::string_view base = text.substr(0, sign);
+  return (is_name(base) || is_count(base) || base == "0") && (sign == std::string_view::npos || is_count(text.substr(sign + 1)));
+}
+
+// What is wrong with one part of a spec.
+class Part {
+ public:
+  Part(std::string name, std::vector<Problem>& found) : name_(std::move(name)), found_(found) {}
+  void wrong(std::vector<std::string> keys, std::string_view text) const {
+    found_.push_back({name_, std::move(keys), fmt::format("{}: {}", name_, text)});
+  }
+
+ private:
+  std::string name_;
+  std::vector<Problem>& found_;
+};
+
+void check_parameter(const ParameterSpec& parameter, const Part& part) {
+  if (!is_name(parameter.name)) part.wrong({}, "its name may hold a-z, 0-9 and _");
+  if (reserved.contains(parameter.name) || clock_names.contains(parameter.name)) part.wrong({}, "its name is reserved");
+  if (parameter.doc.empty()) part.wrong({"doc"}, "has no doc");
   const Value& value = parameter.initial;
   const auto in_range = [&](double number) { return number >= parameter.min && number <= parameter.max; };  // NaN is not
+  const auto wrong_default = [&](std::string_view text) { part.wrong({"default", "kind"}, text); };
   switch (parameter.kind) {
     case ParameterKind::number:
       if (const auto* number = std::get_if<double>(&value); !number || !in_range(*number))
-        wrong("its default is no number in its range");
+        wrong_default("its default is no number in its range");
       break;
     case ParameterKind::integer:
       if (const auto* number = std::get_if<std::int64_t>(&value); !number || !in_range(static_cast<double>(*number)))
-        wrong("its default is no whole number in its range");
+        wrong_default("its default is no whole number in its range");
       break;
     case ParameterKind::boolean:
-      if (!std::holds_alternative<bool>(value)) wrong("its default is not true or false");
+      if (!std::holds_alternative<bool>(value)) wrong_default("its default is not true or false");
       break;
     case ParameterKind::choice:
       if (const auto* text = std::get_if<std::string>(&value); !text || std::ranges::count(parameter.choices, *text) != 1)
-        wrong("its default is none of its choices");
+        wrong_default("its default is none of its choices");
       break;
     case ParameterKind::vector3:
       if (const auto* vector = std::get_if<Vector3>(&value); !vector || !std::ranges::all_of(*vector, in_range))
-        wrong("its default is no vector in its range");
+        wrong_default("its default is no vector in its range");
       break;
     case ParameterKind::path:
-      if (!std::holds_alternative<std::string>(value)) wrong("its default is no text");
+      if (!std::holds_alternative<std::string>(value)) wrong_default("its default is no text");
       break;
   }
 }
@@ -55,10 +81,10 @@ void check_parameter(const ParameterSpec& parameter, std::vector<std::string>& f
 bool is_one_of(ElementType type, std::initializer_list<ElementType> types) { return std::ranges::find(types, type) != types.end(); }
 
 // Whether OpenGL can have the port's elements in this way.
-void check_usage(const Port& port, Usage usage, std::vector<std::string>& found) {
+void check_usage(const Port& port, Usage usage, const Part& part) {
   using enum ElementType;
   const auto wrong = [&](std::string_view text) {
-    found.push_back(fmt::format("port {}: {} {}", port.name, name(port.type), text));
+    part.wrong({"type", "usage", "domain"}, fmt::format("{} {}", name(port.type), text));
   };
   const bool in_block = usage == Usage::storage || usage == Usage::uniform || usage == Usage::vertex || usage == Usage::indirect;
   if (is_texel(port.type) && in_block) wrong("is only in textures");
@@ -69,11 +95,19 @@ void check_usage(const Port& port, Usage usage, std::vector<std::string>& found)
 }
 
 // Conditions on the stage's own choices; others are the environment's.
-void check_condition(const Condition& condition, const StageSpec& spec, std::vector<std::string>& found) {
+void check_condition(const Condition& condition, const StageSpec& spec, std::vector<Problem>& found) {
   const auto parameter = std::ranges::find(spec.parameters, condition.name, &ParameterSpec::name);
   if (parameter == spec.parameters.end() || parameter->kind != ParameterKind::choice) return;
   if (std::ranges::find(parameter->choices, condition.value) == parameter->choices.end())
-    found.push_back(fmt::format("condition {} = {}: never holds", condition.name, condition.value));
+    found.push_back({"", {}, fmt::format("condition {} = {}: never holds", condition.name, condition.value)});
+}
+
+void check_domain(const DomainText& domain, const Part& part) {
+  if (domain.empty())
+    part.wrong({"domain"}, "has no domain");
+  else if (!is_domain_text(domain))
+    part.wrong({"domain"},
+               fmt::format("its domain '{}' is no count, no domain and none scaled, such as cells*2 or cells/4", domain));
 }
 
 }  // namespace
@@ -90,44 +124,50 @@ std::string_view describe(Fault fault) {
   return "";
 }
 
-std::vector<std::string> problems(const StageSpec& spec) {
-  std::vector<std::string> found;
-  if (spec.name.empty()) found.emplace_back("has no name");
-  if (spec.doc.empty()) found.emplace_back("has no doc");
-  if (spec.work.empty()) found.emplace_back("has no work");
+std::vector<Problem> find_problems(const StageSpec& spec) {
+  std::vector<Problem> found;
+  const auto of_stage = [&](std::vector<std::string> keys, std::string text) {
+    found.push_back({"", std::move(keys), std::move(text)});
+  };
+  if (spec.name.empty()) of_stage({"name"}, "has no name");
+  if (spec.doc.empty()) of_stage({"doc"}, "has no doc");
+  if (spec.work.empty()) of_stage({}, "has no work");
   // Far more than any device binds at once.
   constexpr std::size_t most_ports = 100, most_parameters = 100;
-  if (spec.ports.size() > most_ports) return {fmt::format("has more than {} ports", most_ports)};
-  if (spec.parameters.size() > most_parameters) return {fmt::format("has more than {} parameters", most_parameters)};
+  if (spec.ports.size() > most_ports) return {{"", {"ports"}, fmt::format("has more than {} ports", most_ports)}};
+  if (spec.parameters.size() > most_parameters)
+    return {{"", {"parameters"}, fmt::format("has more than {} parameters", most_parameters)}};
 
   std::set<std::string> ports;
   std::set<std::string> keys;
   for (const Port& port : spec.ports) {
+    const Part part("port " + port.name, found);
     ports.insert(port.name);
-    if (!is_name(port.name)) found.push_back(fmt::format("port {}: its name may hold a-z, 0-9 and _", port.name));
-    if (clock_names.contains(port.name)) found.push_back(fmt::format("port {}: its name is reserved", port.name));
-    if (port.doc.empty()) found.push_back(fmt::format("port {}: has no doc", port.name));
-    if (port.domain.empty()) found.push_back(fmt::format("port {}: has no domain", port.name));
-    if (port.unit.empty()) found.push_back(fmt::format("port {}: has no unit", port.name));
-    if (!keys.insert(port.name + "/" + port.when.name + "=" + port.when.value).second)
-      found.push_back(fmt::format("port {}: declared twice", port.name));
-    check_usage(port, port.usage, found);
+    if (!is_name(port.name)) part.wrong({}, "its name may hold a-z, 0-9 and _");
+    if (clock_names.contains(port.name)) part.wrong({}, "its name is reserved");
+    if (port.doc.empty()) part.wrong({"doc"}, "has no doc");
+    check_domain(port.domain, part);
+    if (port.unit.empty()) part.wrong({"unit"}, "has no unit");
+    if (!keys.insert(port.name + "/" + port.when.name + "=" + port.when.value).second) part.wrong({}, "declared twice");
+    check_usage(port, port.usage, part);
     check_condition(port.when, spec, found);
   }
-  std::set<std::string> parameters;
+  std::set<std::string> taken = ports;
   for (const ParameterSpec& parameter : spec.parameters) {
-    check_parameter(parameter, found);
-    if (!parameters.insert(parameter.name).second || ports.contains(parameter.name))
-      found.push_back(fmt::format("parameter {}: the name is taken", parameter.name));
+    const Part part("parameter " + parameter.name, found);
+    check_parameter(parameter, part);
+    if (!taken.insert(parameter.name).second) part.wrong({}, "the name is taken");
   }
+  for (const std::string& constant : spec.constants)
+    if (!taken.insert(constant).second) Part("constant " + constant, found).wrong({}, "the name is taken");
 
   if (!spec.resizes.empty() &&
       (std::ranges::none_of(spec.ports, [&](const Port& port) { return port.domain == spec.resizes; }) ||
        std::ranges::none_of(spec.work, [](const Work& work) { return std::holds_alternative<HostWork>(work); })))
-    found.push_back(fmt::format("resizes {}: needs a port over it, and work on the host", spec.resizes));
+    of_stage({}, fmt::format("resizes {}: needs a port over it, and work on the host", spec.resizes));
 
   const auto need_port = [&](const std::string& name) {
-    if (!ports.contains(name)) found.push_back(fmt::format("its work uses port {}, which it does not have", name));
+    if (!ports.contains(name)) of_stage({}, fmt::format("its work uses port {}, which it does not have", name));
   };
   for (const Work& work : spec.work) {
     std::visit(
@@ -136,13 +176,16 @@ std::vector<std::string> problems(const StageSpec& spec) {
           for (const PortUse& use : w.uses) {
             need_port(use.port);
             for (const Port& port : spec.ports)
-              if (port.name == use.port && use.usage && *use.usage != port.usage) check_usage(port, *use.usage, found);
+              if (port.name == use.port && use.usage && *use.usage != port.usage)
+                check_usage(port, *use.usage, Part("port " + port.name, found));
           }
         },
         work);
     if (const auto* dispatch = std::get_if<Dispatch>(&work)) {
       if (dispatch->over.empty() == dispatch->indirect.empty())
-        found.push_back(fmt::format("kernel {}: needs either a domain or an indirect port", dispatch->kernel));
+        of_stage({"over"}, fmt::format("kernel {}: needs either a domain or an indirect port", dispatch->kernel));
+      else if (!dispatch->over.empty() && !is_domain_text(dispatch->over))
+        of_stage({"over"}, fmt::format("'{}' is no count, no domain and none scaled, such as cells*2 or cells/4", dispatch->over));
       if (!dispatch->indirect.empty()) need_port(dispatch->indirect);
       for (const Arithmetic& one : dispatch->arithmetic) check_condition(one.when, spec, found);
     }
@@ -152,6 +195,12 @@ std::vector<std::string> problems(const StageSpec& spec) {
     }
   }
   return found;
+}
+
+std::vector<std::string> problems(const StageSpec& spec) {
+  std::vector<std::string> texts;
+  for (Problem& problem : find_problems(spec)) texts.push_back(std::move(problem.text));
+  return texts;
 }
 
 }  // namespace firn::graph

@@ -6,8 +6,12 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <set>
 
+#include "config/parsed.h"
 #include "config/reader.h"
+#include "graph/environment.h"
+#include "graph/spec_problems.h"
 
 namespace firn::graph {
 namespace {
@@ -57,43 +61,80 @@ std::optional<std::string> head_of(const std::string& text) {
   return head;
 }
 
+// A port, a parameter, a constant, or the head itself.
+struct Part {
+  Place place;
+  std::map<std::string, Place> keys;  // of their values
+  std::set<std::string> wrong;        // keys that an error speaks of
+};
+
 class HeadReader {
  public:
-  HeadReader(const std::filesystem::path& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
+  // `whole`: the head was read to its end, so that what is not there is missing.
+  HeadReader(const std::filesystem::path& file, bool whole, Diagnostics& diagnostics)
+      : file_(file), whole_(whole), diagnostics_(diagnostics) {}
 
   StageSpec read(const Node& root) {
     Reader reader(root, "the head of a stage", diagnostics_);
-    if (reader.integer("firn", 0, {.min = 1, .max = 1}) == 0 && root.kind == Node::Kind::map && !reader.has("firn"))
+    if (reader.integer("firn", 0, {.min = 1, .max = 1}) == 0 && root.kind == Node::Kind::map && !reader.has("firn") && whole_)
       diagnostics_.error(root.place, "missing key 'firn': a stage's head begins with 'firn: 1', the version of its format");
+    Part& head = part("", root.place, root);
     StageSpec spec;
-    spec.name = reader.required_text("name");
-    spec.doc = reader.required_text("doc");
+    spec.name = text(reader, head, "name");
+    spec.doc = text(reader, head, "doc");
     spec.equation = reader.text("equation", "");
-    places_[""] = root.place;
-    if (const Node* ports = reader.require("ports")) each(*ports, "ports", [&](const Entry& e) { spec.ports.push_back(port(e)); });
+    if (const Node* ports = require(reader, "ports")) each(*ports, "ports", [&](const Entry& e) { spec.ports.push_back(port(e)); });
     if (const Node* parameters = reader.find("parameters"))
       each(*parameters, "parameters", [&](const Entry& e) { spec.parameters.push_back(parameter(e)); });
     for (const Node& name : list(reader.find("constants"), "constants"))
-      if (const auto text = config::read_text(name, "a constant", diagnostics_)) spec.constants.push_back(*text);
+      if (const auto constant = config::read_text(name, "a constant", diagnostics_)) {
+        spec.constants.push_back(*constant);
+        part("constant " + *constant, name.place, name);
+      }
     for (const Node& name : list(reader.find("faults"), "faults"))
-      if (const auto text = config::read_choice(name, "a fault", names_of(faults), diagnostics_))
-        spec.faults.push_back(*named(faults, *text));
+      if (const auto fault = config::read_choice(name, "a fault", names_of(faults), diagnostics_))
+        spec.faults.push_back(*named(faults, *fault));
     Dispatch dispatch;
     dispatch.kernel = std::filesystem::absolute(file_).lexically_normal().string();
-    dispatch.over = reader.required_text("over");
+    dispatch.over = text(reader, head, "over");
     dispatch.group = static_cast<int>(reader.integer("group", dispatch.group, {.min = 1, .max = 1024}));
     spec.work = {dispatch};
     reader.finish();
     return spec;
   }
 
-  // Of the port or parameter that one of problems() speaks of.
-  [[nodiscard]] Place place_of(const std::string& problem) const {
-    const auto known = places_.find(problem.substr(0, problem.find(':')));
-    return known == places_.end() ? places_.at("") : known->second;
+  // What is wrong with the spec and does not follow from what has been told of it.
+  void tell(const std::vector<Problem>& problems) const {
+    for (const Problem& problem : problems) {
+      const Part& of = parts_.at(problem.part);
+      if (std::ranges::any_of(problem.keys, [&](const std::string& key) { return of.wrong.contains(key); })) continue;
+      const auto given = std::ranges::find_if(problem.keys, [&](const std::string& key) { return of.keys.contains(key); });
+      diagnostics_.error(given == problem.keys.end() ? of.place : of.keys.at(*given), problem.text);
+    }
   }
 
  private:
+  Part& part(const std::string& name, const Place& place, const Node& node) {
+    Part& part = parts_[name];
+    part.place = place;
+    for (const Entry& e : node.entries) part.keys[e.key] = e.value.place;
+    return part;
+  }
+
+  template <typename Read>
+  auto noting(Part& part, const char* key, const Read& read) {
+    const std::size_t before = diagnostics_.all().size();
+    auto value = read();
+    if (diagnostics_.all().size() > before) part.wrong.insert(key);
+    return value;
+  }
+
+  const Node* require(Reader& reader, const char* key) { return whole_ ? reader.require(key) : reader.find(key); }
+
+  std::string text(Reader& reader, Part& part, const char* key) {
+    return noting(part, key, [&] { return require(reader, key) == nullptr ? std::string() : reader.text(key, ""); });
+  }
+
   template <typename Visit>
   void each(const Node& map, const char* what, const Visit& visit) {
     if (map.kind != Node::Kind::map)
@@ -108,39 +149,52 @@ class HeadReader {
     return {};
   }
 
-  // Where required texts are missing, what stands for them brings no further error.
   Port port(const Entry& e) {
-    places_["port " + e.key] = e.place;
+    Part& part = this->part("port " + e.key, e.place, e.value);
     Reader reader(e.value, "port " + e.key, diagnostics_);
     const auto choice = [&](const char* key, const std::vector<std::string>& choices, const char* fallback) {
-      return reader.require(key) == nullptr ? fallback : reader.choice(key, choices, fallback);
+      return noting(part, key, [&] { return reader.choice(key, choices, fallback); });
+    };
+    const auto required = [&](const char* key, const std::vector<std::string>& choices, const char* fallback) {
+      return noting(part, key, [&] { return require(reader, key) ? reader.choice(key, choices, fallback) : fallback; });
     };
     Port port;
     port.name = e.key;
-    port.type = element_type(choice("type", element_type_names(), "float")).value_or(ElementType::float1);
-    port.domain = reader.required_text("domain");
-    port.access = access(choice("access", accesses, "read")).value_or(Access::read);
-    port.usage = usage(reader.choice("usage", usages, "storage")).value_or(Usage::storage);
-    port.unit = reader.required_text("unit");
-    port.doc = reader.required_text("doc");
+    port.type = element_type(required("type", element_type_names(), "float")).value_or(ElementType::float1);
+    port.domain = text(reader, part, "domain");
+    port.access = access(required("access", accesses, "read")).value_or(Access::read);
+    port.usage = usage(choice("usage", usages, "storage")).value_or(Usage::storage);
+    port.unit = text(reader, part, "unit");
+    port.doc = text(reader, part, "doc");
     port.optional = reader.boolean("optional", false);
     reader.finish();
     return port;
   }
 
   ParameterSpec parameter(const Entry& e) {
-    places_["parameter " + e.key] = e.place;
+    Part& part = this->part("parameter " + e.key, e.place, e.value);
     Reader reader(e.value, "parameter " + e.key, diagnostics_);
     ParameterSpec parameter;
     parameter.name = e.key;
-    parameter.kind = named(kinds, reader.choice("kind", names_of(kinds), "number")).value_or(ParameterKind::number);
+    const std::string kind = noting(part, "kind", [&] { return reader.choice("kind", names_of(kinds), "number"); });
+    parameter.kind = named(kinds, kind).value_or(ParameterKind::number);
+    const std::size_t before = diagnostics_.all().size();
     parameter.min = reader.number("min", parameter.min);
     parameter.max = reader.number("max", parameter.max);
-    for (const Node& choice : list(reader.find("choices"), "choices"))
+    if (parameter.min > parameter.max)
+      diagnostics_.error(part.keys.at("min"),
+                         fmt::format("min must be at most max, which is {:g}, not {:g}", parameter.max, parameter.min));
+    const Node* choices = parameter.kind == ParameterKind::choice ? require(reader, "choices") : reader.find("choices");
+    for (const Node& choice : list(choices, "choices"))
       if (const auto text = config::read_text(choice, "a choice", diagnostics_)) parameter.choices.push_back(*text);
+    // A default is held to what is allowed once that is known.
+    const bool bounds_known = diagnostics_.all().size() == before && !part.wrong.contains("kind");
     parameter.unit = reader.text("unit", parameter.unit);
-    parameter.doc = reader.required_text("doc");
-    if (const Node* initial = reader.require("default")) parameter.initial = value(*initial, parameter);
+    parameter.doc = text(reader, part, "doc");
+    if (const Node* initial = noting(part, "default", [&] { return require(reader, "default"); }); initial && bounds_known)
+      parameter.initial = noting(part, "default", [&] { return value(*initial, parameter); });
+    else
+      part.wrong.insert("default");
     reader.finish();
     return parameter;
   }
@@ -163,9 +217,41 @@ class HeadReader {
   }
 
   const std::filesystem::path& file_;
+  const bool whole_;
   Diagnostics& diagnostics_;
-  std::map<std::string, Place> places_;  // "port velocity", "parameter rate"; "": of the head
+  std::map<std::string, Part> parts_;  // "port velocity", "parameter rate", "constant gravity"; "": the head
 };
+
+// Everything that is wrong with a head; the text before it as head_of() leaves it.
+std::optional<StageSpec> read_head(const std::string& head, const std::filesystem::path& file, Diagnostics& diagnostics) {
+  const config::Parsed parsed = config::parse_broken(head, file.string(), diagnostics);
+  if (parsed.root.kind == Node::Kind::null && diagnostics.has_errors()) return std::nullopt;
+  Diagnostics of_values;
+  HeadReader reader(file, !parsed.broken_at, of_values);
+  StageSpec spec = reader.read(parsed.root);
+  if (!parsed.broken_at) reader.tell(find_problems(spec));
+  // The line where a text is broken is read as something else than was meant.
+  for (const config::Diagnostic& one : of_values.all())
+    if (!parsed.broken_at || one.place.line < parsed.broken_at->line) diagnostics.error(one.place, one.text);
+  return diagnostics.has_errors() ? std::nullopt : std::optional(std::move(spec));
+}
+
+// Calls `visit` with every text of a head that names a domain or a constant.
+template <typename Visit>
+void each_name(const Node& root, const Visit& visit) {
+  if (const Node* ports = root.find("ports"))
+    for (const Entry& port : ports->entries)
+      if (const Node* domain = port.value.find("domain")) visit(*domain);
+  if (const Node* over = root.find("over")) visit(*over);
+  if (const Node* constants = root.find("constants"))
+    for (const Node& constant : constants->items) visit(constant);
+}
+
+std::optional<std::string> text_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  return stream ? std::optional(std::move(text)) : std::nullopt;
+}
 
 }  // namespace
 
@@ -178,27 +264,29 @@ std::optional<StageSpec> read_stage_file(const std::filesystem::path& file, Diag
     diagnostics.error({file.string(), 0, 0}, "a shader of more than 1 MiB is none");
     return std::nullopt;
   }
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  const std::optional<std::string> head = head_of(text);
-  if (!stream || !head) {
-    diagnostics.error({file.string(), 0, 0}, !stream ? "cannot be read"
-                                                     : "a stage's file begins with a comment that is its spec, in YAML: /*, then "
-                                                       "'firn: 1', name, doc, ports, over, then */");
+  const std::optional<std::string> text = text_of(file), head = text ? head_of(*text) : std::nullopt;
+  if (!head) {
+    diagnostics.error({file.string(), 0, 0}, !text ? "cannot be read"
+                                                   : "a stage's file begins with a comment that is its spec, in YAML: /*, then "
+                                                     "'firn: 1', name, doc, ports, over, then */");
     return std::nullopt;
   }
   Diagnostics of_head;
-  const Node root = config::parse(*head, file.string(), of_head);
-  StageSpec spec;
-  if (!of_head.has_errors()) {
-    HeadReader reader(file, of_head);
-    spec = reader.read(root);
-    // What is wrong with single values has been told; the spec as a whole is looked at once they are right.
-    if (!of_head.has_errors())
-      for (const std::string& problem : problems(spec)) of_head.error(reader.place_of(problem), problem);
-  }
+  std::optional<StageSpec> spec = read_head(*head, file, of_head);
   diagnostics.append(of_head);
-  return of_head.has_errors() ? std::nullopt : std::optional(std::move(spec));
+  return spec;
+}
+
+std::vector<Place> places_in_head(const StageSpec& spec, const std::string& name) {
+  const std::string& file = std::get<Dispatch>(spec.work.front()).kernel;
+  const std::optional<std::string> text = text_of(file), head = text ? head_of(*text) : std::nullopt;
+  std::vector<Place> places;
+  if (!head) return places;
+  Diagnostics told_before;
+  each_name(config::parse(*head, file, told_before), [&](const Node& node) {
+    if (node.scalar == name || base_domain(node.scalar) == name) places.push_back(node.place);
+  });
+  return places;
 }
 
 }  // namespace firn::graph

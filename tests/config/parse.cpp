@@ -1,6 +1,7 @@
 #include <string>
 
 #include "config/node.h"
+#include "config/parsed.h"
 #include "tests/config/support.h"
 
 using namespace firn::config;
@@ -190,4 +191,22 @@ TEST_CASE("describe says what a value is in a few words on one line") {
   CHECK(describe(parse_good("soft snow")) == "'soft snow'");
   CHECK(describe(parse_good("\"a\\nb\\tc\\x01\"")) == "'a\\nb\\tc\\x01'");
   CHECK(describe(parse_good(std::string(100, 'x'))) == "'" + std::string(40, 'x') + "...'");
+}
+
+TEST_CASE("where a text stops to be YAML is told, and what stands before it is there") {
+  const auto parsed = [](const std::string& text) {
+    Diagnostics diagnostics;
+    Parsed result = parse_broken(text, "a.yaml", diagnostics);
+    CHECK(result.broken_at.has_value() == diagnostics.has_errors());
+    return result;
+  };
+  CHECK_FALSE(parsed("a: 1\nb: [2, 3]\n").broken_at.has_value());
+  const Parsed indented = parsed("a: 1\nb: c: 2\n");
+  CHECK(where(indented.broken_at.value()) == "a.yaml:2:5");
+  CHECK(indented.root.find("a")->scalar == "1");
+  CHECK(where(parsed("a: 1\nb: [2, {c: [3,\nd: 4\n").broken_at.value()) == "a.yaml:2:4");
+  CHECK(where(parsed("a: 1\nb: \"2\nc: 3\n").broken_at.value()) == "a.yaml:2:4");
+  Diagnostics of_keys;
+  CHECK_FALSE(parse_broken("a: 1\na: 2\n", "a.yaml", of_keys).broken_at.has_value());
+  CHECK(of_keys.has_errors());
 }

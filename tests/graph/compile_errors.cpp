@@ -173,6 +173,27 @@ TEST_CASE("a constant without a value is an error with the environment's reason"
         Lines{"p.yaml:4:5: error: demo.needy needs 'density', which is not known here: the scene has no field"});
 }
 
+TEST_CASE("a scene of the wrong kind is one error that tells who needs what") {
+  graph::Registry registry = made_up_registry();
+  for (const char* name : {"demo.a", "demo.b", "demo.c", "demo.d"})
+    registry.add(stage(name, {port("x", graph::Access::read_write, "points"), port("pull", graph::Access::write, "bodies")}));
+  graph::Environment environment = made_up_environment();
+  for (const char* name : {"edges", "corners", "density", "weight"}) environment.missing[name] = "the scene has no bodies";
+  graph::StageSpec needy = stage("demo.e", {port("x", graph::Access::read_write, "points")});
+  needy.constants = {"edges", "corners", "density", "weight"};
+  registry.add(needy);
+  const auto told = [&](const std::string& stages) {
+    return compiled("firn: 1\nsetup: [demo.fill]\nstep: [" + stages + "]\n", {}, registry, environment).messages;
+  };
+  CHECK(
+      told("demo.a, demo.b, demo.c, demo.d, demo.e, demo.e") ==
+      Lines{"p.yaml:3:8: error: 5 stages (demo.a, demo.b, demo.c, demo.d and 1 more) need 'bodies', 'edges', 'corners', 'density' "
+            "and 1 more, which are not known here: the scene has no bodies"});
+  CHECK(told("demo.a, demo.b") ==
+        Lines{"p.yaml:3:8: error: 2 stages (demo.a, demo.b) need 'bodies', which is not known here: the scene has no bodies"});
+  CHECK(told("demo.e").at(0).starts_with("p.yaml:3:8: error: demo.e needs 'edges', 'corners', 'density', 'weight', which are"));
+}
+
 TEST_CASE("everything wrong is said at once") {
   const Lines all = messages(
       "firn: 1\nsetup: [demo.fill]\nstep:\n  - demo.lok\n  - demo.tuned: {speed: -1, sped: 2}\n  - demo.show\n"

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <random>
 #include <string>
@@ -113,11 +114,63 @@ TEST_CASE("what is wrong with a head as a spec is told at the port or parameter"
   CHECK(errors_of(with("radius:", "x:")) == Lines{"b.comp:11:3: error: parameter x: the name is taken"});
 }
 
+// Of the places of errors, sorted: "9:16".
+Lines places_of(const std::string& text) {
+  Lines places;
+  for (const std::string& line : errors_of(text)) {
+    REQUIRE(line.starts_with("b.comp:"));
+    places.push_back(line.substr(7, line.find(": error") - 7));
+  }
+  std::ranges::sort(
+      places, {}, [](const std::string& place) { return std::stod(place) * 1000 + std::stod(place.substr(place.find(':') + 1)); });
+  return places;
+}
+
+std::string with_all(const std::vector<std::pair<std::string, std::string>>& changes) {
+  std::string text = blur;
+  for (const auto& [from, to] : changes) {
+    const std::size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    text.replace(at, from.size(), to);
+  }
+  return text;
+}
+
 TEST_CASE("all errors of a head are found in one pass") {
-  std::string text = with("type: vec3", "type: vec5");
-  text.replace(text.find("default: 1.5"), 12, "default: up");
-  text.replace(text.find("over: points"), 12, "ovr: points");
-  CHECK(errors_of(text).size() == 4);
+  CHECK(places_of(with_all({{"type: vec3", "type: vec5"}, {"default: 1.5", "default: up"}, {"over: points", "ovr: points"}})) ==
+        Lines{"3:1", "9:16", "11:21", "18:1"});
+}
+
+TEST_CASE("what is wrong with values and what is wrong with the spec that they make is told at once") {
+  const std::string text = with_all({{"doc: Smooths", "doc: ''"},
+                                     {"wind:", "Wind:"},
+                                     {"type: vec3", "type: vec5"},
+                                     {"domain: points, access: read,", "domain: points*x, access: rid,"},
+                                     {"radius:", "dt:"},
+                                     {"turns: {kind: integer, default: 2", "x: {kind: integer, default: two"},
+                                     {"[gravity]", "[gravity, gravity, wrap]"},
+                                     {"group: 128", "group: 4096"}});
+  CHECK(places_of(text) == Lines{"5:6", "9:3", "9:16", "9:30", "9:48", "11:3", "12:3", "12:31", "16:22", "16:31", "19:8"});
+}
+
+TEST_CASE("a mistake of a head brings no error that only follows from it") {
+  CHECK(errors_of(with("usage: sampled", "usage: smpled")).size() == 1);
+  CHECK(errors_of(with_all({{"type: vec3", "type: rgba8"}, {"usage: sampled", "usage: imge"}})).size() == 1);
+  CHECK(errors_of(with_all({{"type: vec3", "type: rgba8"}, {"usage: sampled", "usage: storage"}})) ==
+        Lines{"b.comp:9:16: error: port wind: rgba8 is only in textures"});
+  CHECK(errors_of(with("kind: boolean", "kind: bolean")).size() == 1);
+  CHECK(errors_of(with("choices: [fine, coarse], ", "")) == Lines{"b.comp:14:9: error: parameter mode needs the key 'choices'"});
+  CHECK(errors_of(with("max: 10", "max: -10")) == Lines{"b.comp:11:31: error: min must be at most max, which is -10, not 0"});
+  CHECK(errors_of(with("domain: points, access: read_write, unit: m, doc: a port", "access: read_write, unit: m, doc: a port")) ==
+        Lines{"b.comp:8:6: error: port x needs the key 'domain'"});
+}
+
+TEST_CASE("where a head stops to be YAML, what stands before it is still read") {
+  const Lines lines = errors_of(with_all({{"type: vec3", "type: vec5"}, {"doc: how often}", "doc: how: often}"}}));
+  REQUIRE(lines.size() == 2);
+  CHECK(lines[0].starts_with("b.comp:12:"));
+  CHECK(lines[1].starts_with("b.comp:9:16: error: type cannot be 'vec5'"));
+  CHECK(errors_of(with_all({{"doc: Smooths", "doc: Smooths\ndoc: Blurs"}, {"type: vec3", "type: vec5"}})).size() == 2);
 }
 
 TEST_CASE("a spoilt head is a spec or an error, whatever is wrong with it") {
@@ -201,15 +254,29 @@ TEST_CASE("a stage from a file is planned and checked like any other") {
         "setup demo.fill step [shader_storage] my_blur [shader_storage] demo.look");
 }
 
-TEST_CASE("a domain or constant that a head misspells is told with the nearest one") {
+TEST_CASE("a domain or constant that a head misspells is told where it stands, with the nearest one") {
   const Folder folder;
   folder.write("blur.comp", with("over: points", "over: pionts"));
   const std::string yaml = "firn: 1\nsetup: [demo.fill]\nstep: [./blur.comp]\n";
   CHECK(compile_messages(folder, yaml) ==
-        Lines{"p.yaml:3:8: error: my_blur works on 'pionts', which is not known here; did you mean 'points'?"});
+        Lines{"blur.comp:18:7: error: my_blur works on 'pionts', which is not known here; did you mean 'points'?"});
   folder.write("blur.comp", with("[gravity]", "[gravty]"));
   CHECK(compile_messages(folder, yaml) ==
-        Lines{"p.yaml:3:8: error: my_blur needs 'gravty', which is not known here; did you mean 'gravity'?"});
+        Lines{"blur.comp:16:13: error: my_blur needs 'gravty', which is not known here; did you mean 'gravity'?"});
+  folder.write("blur.comp",
+               with_all({{"[gravity]", "[gravty]"}, {"domain: points", "domain: pionts"}, {"over: points", "over: pionts/2"}}));
+  CHECK(compile_messages(folder, "firn: 1\nsetup: [demo.fill]\nstep: [./blur.comp, ./blur.comp]\n") ==
+        Lines{"blur.comp:16:13: error: my_blur needs 'gravty', which is not known here; did you mean 'gravity'?",
+              "blur.comp:8:28: error: my_blur works on 'pionts', which is not known here; did you mean 'points'?",
+              "blur.comp:18:7: error: my_blur works on 'pionts', which is not known here; did you mean 'points'?",
+              "p.yaml:2:9: warning: demo.fill writes 'x', which no stage reads"});
+}
+
+TEST_CASE("a domain that the scene lacks is told where a stage's file is used, not in the file") {
+  const Folder folder;
+  folder.write("blur.comp", with("over: points", "over: bodies"));
+  CHECK(compile_messages(folder, "firn: 1\nsetup: [demo.fill]\nstep: [./blur.comp]\n") ==
+        Lines{"p.yaml:3:8: error: my_blur works on 'bodies', which is not known here: the scene has no bodies"});
 }
 
 TEST_CASE("a file may not call its stage as one of Firn's own is called") {
