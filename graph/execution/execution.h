@@ -49,7 +49,7 @@ std::vector<std::string> shortcomings(const graph::Plan& plan, const gpu::Limits
 class Execution {
  public:
   // Allocates buffers, compiles kernels, makes host stages. Throws gpu::DeviceError where the device cannot do it (before anything
-  // is allocated), gpu::ShaderError where a kernel does not compile.
+  // is allocated), gpu::ShaderError where a kernel does not compile, config::InputError where that of a stage's file does not.
   Execution(gpu::Device& device, graph::Plan plan, const graph::Registry& registry, Options options);
   ~Execution();
   Execution(const Execution&) = delete;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "gpu/subgroups.h"
+#include "graph/execution/stage_file_errors.h"
 #include "graph/repeats.h"
 
 namespace firn::execution {
@@ -70,7 +71,7 @@ const std::string& shader_file(const Draw& draw, gpu::ShaderKind kind) {
 }
 
 std::filesystem::path find_shader(const std::string& file, std::span<const std::filesystem::path> folders) {
-  if (std::filesystem::path(file).is_absolute()) return file;
+  if (is_stage_file(file)) return file;
   std::string searched;
   for (const std::filesystem::path& folder : folders) {
     if (std::filesystem::is_regular_file(folder / file)) return folder / file;
@@ -162,8 +163,13 @@ gpu::ShaderSource kernel_source(const Plan& plan, int stage, int work, const std
   const std::filesystem::path path = find_shader(file, shader_folders);
   // A stage that is a file may have its own includes beside it.
   std::vector<std::filesystem::path> folders(shader_folders.begin(), shader_folders.end());
-  if (std::filesystem::path(file).is_absolute()) folders.push_back(path.parent_path());
-  gpu::append_file(source, path, folders);
+  if (is_stage_file(file)) folders.push_back(path.parent_path());
+  try {
+    gpu::append_file(source, path, folders);
+  } catch (const gpu::ShaderError& error) {
+    if (is_stage_file(file)) throw config::InputError(stage_file_errors(error.what(), source, file));
+    throw;
+  }
   return source;
 }
 

@@ -47,7 +47,8 @@ struct Kernel {
 // All of it but the program (programs.h).
 Kernel make_kernel(const graph::Plan& plan, int stage, int work, const Memory& memory, const gpu::Device& device);
 
-// What its program is made of; no shaders for host work.
+// What its program is made of; no shaders for host work. Throws config::InputError where the file of a stage includes what is not
+// there.
 gpu::ProgramSource program_source(const graph::Plan& plan, int stage, int work, const graph::DeviceTraits& traits,
                                   std::span<const std::filesystem::path> shader_folders);
 

@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string>
 #include <thread>
+
+#include "graph/execution/stage_file_errors.h"
 
 namespace firn::execution {
 namespace {
@@ -26,6 +29,27 @@ std::vector<Task> tasks_of(const graph::Plan& plan, const gpu::Device& device,
       if (!task.source.shaders.empty()) tasks.push_back(std::move(task));
     }
   return tasks;
+}
+
+// The programs of stages that are files once more, one by one: what is wrong with them is their authors' to mend.
+void tell_stage_files(const graph::Plan& plan, const std::vector<Task>& tasks) {
+  config::Diagnostics diagnostics;
+  std::set<std::string> told;  // a file may be there as several stages
+  for (const Task& task : tasks) {
+    const graph::Work& work = plan.stages[static_cast<std::size_t>(task.stage)].spec.work[static_cast<std::size_t>(task.work)];
+    const auto* dispatch = std::get_if<graph::Dispatch>(&work);
+    if (dispatch == nullptr || !is_stage_file(dispatch->kernel)) continue;
+    try {
+      gpu::compile_programs(std::span(&task.source, 1), nullptr);
+    } catch (const gpu::ShaderError& error) {
+      const gpu::ShaderSource& source = task.source.shaders.front().second;
+      const config::Diagnostics errors = stage_file_errors(error.what(), source, dispatch->kernel);
+      for (const config::Diagnostic& one : errors.all())
+        if (one.severity == config::Severity::error && told.insert(config::to_string(one)).second)
+          diagnostics.error(one.place, one.text);
+    }
+  }
+  config::throw_if_errors(diagnostics);
 }
 
 class Maker {
@@ -111,7 +135,12 @@ void make_programs(const graph::Plan& plan, std::vector<std::vector<Kernel>>& ke
   std::erase_if(tasks, [&](const Task& task) { return maker.cached(task); });
   spdlog::debug("{} of {} programs are in the cache", all - tasks.size(), all);
   if (tasks.empty()) return;
-  maker.compile(tasks);
+  try {
+    maker.compile(tasks);
+  } catch (const gpu::ShaderError&) {
+    tell_stage_files(plan, tasks);
+    throw;
+  }
   if (cache != nullptr) cache->trim();
 }
 

@@ -11,7 +11,8 @@
 namespace firn::execution {
 
 // Gives every kernel its program: from the cache (null: there is none), or compiled, as many at once as pays. Throws
-// gpu::ShaderError with what is wrong with any of them. `bind`: to bind_kernel() it, in whichever context is current.
+// config::InputError with what is wrong with stages that are files, else gpu::ShaderError with what is wrong with any of them.
+// `bind`: to bind_kernel() it, in whichever context is current.
 void make_programs(const graph::Plan& plan, std::vector<std::vector<Kernel>>& kernels, gpu::Device& device,
                    std::span<const std::filesystem::path> shader_folders, const gpu::ProgramCache* cache,
                    const std::function<void(int stage, int work)>& bind);

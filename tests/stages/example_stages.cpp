@@ -64,7 +64,7 @@ TEST_CASE("an error of GLSL in a stage's file is told with the file's own name a
   std::string message;
   try {
     run_file(folder);
-  } catch (const gpu::ShaderError& error) {
+  } catch (const config::InputError& error) {
     message = error.what();
   }
   INFO(message);

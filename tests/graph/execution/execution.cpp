@@ -231,11 +231,11 @@ TEST_CASE("a fault names stage, step and count") {
   }
 }
 
-TEST_CASE("a kernel that does not compile is told with its own file and line") {
+TEST_CASE("a kernel named by its whole path that does not compile is wrong input, told with its own file and line") {
   try {
     executed("firn: 1\nstep: [test.broken]\n", 0);
     FAIL("it compiled");
-  } catch (const gpu::ShaderError& error) {
+  } catch (const config::InputError& error) {
     CHECK(std::string(error.what()).find("shaders/broken.comp:2") != std::string::npos);
   }
 }
