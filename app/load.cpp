@@ -9,6 +9,7 @@
 
 #include "app/choice.h"
 #include "app/export.h"
+#include "app/scene_kinds.h"
 #include "app/shipped.h"
 #include "config/nearest.h"
 #include "scene/emission.h"
@@ -221,9 +222,18 @@ Loaded load(const Inputs& inputs, const std::string& output) {
   loaded.registry = stages::all_stages(problem);
   graph::Environment environment = stages::environment(*problem);
   environment.provided.insert(inputs.keep.begin(), inputs.keep.end());
-  loaded.plan = graph::compile(loaded.pipeline, loaded.registry, environment, diagnostics,
-                               {.share_memory = inputs.share_memory, .decide_on_device = inputs.repeats == "device"});
+  const config::Diagnostics of_files = diagnostics;
+  const auto compile = [&] {
+    loaded.plan = graph::compile(loaded.pipeline, loaded.registry, environment, diagnostics,
+                                 {.share_memory = inputs.share_memory, .decide_on_device = inputs.repeats == "device"});
+  };
+  compile();
   loaded.problem = problem;
+  if (diagnostics.has_errors()) {  // told once more with what may help
+    diagnostics = of_files;
+    name_scenes_that_would_do(environment);
+    compile();
+  }
   config::throw_if_errors(diagnostics);
   warn_of_idle_parts(problem->scene, loaded.plan, diagnostics);
   return loaded;
