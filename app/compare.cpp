@@ -44,6 +44,9 @@ int compare(const CompareOptions& options) {
   Loaded b = load(of_b, "");
   print(a.diagnostics);
   print(b.diagnostics);
+  if (std::error_code error; fs::equivalent(a.pipeline_file, b.pipeline_file, error) && options.set_a == options.set_b)
+    spdlog::warn(
+        "A and B are the same pipeline with the same settings: only their times can differ; --set-a or --set-b makes them differ");
   const std::string output =
       options.output.empty() ? fmt::format("out/compare-{}-{}", stem(options.inputs.pipeline), stem(other)) : options.output;
   const std::string scene = a.problem->scene.name.empty() ? a.scene_file : a.problem->scene.name;

@@ -14,12 +14,22 @@ namespace {
 using graph::Constant;
 
 std::optional<graph::Value> read_constant(const Constant& known, const config::Node& node, config::Diagnostics& diagnostics) {
-  if (known.type == graph::ElementType::vec3 || known.type == graph::ElementType::ivec3) {
-    if (const auto vector = config::read_vector3(node, known.name, {}, diagnostics)) return graph::Value(*vector);
+  if (graph::components(known.type) == 3) {
+    const auto vector = config::read_vector3(node, known.name, {}, diagnostics);
+    const bool whole = known.type == graph::ElementType::ivec3;
+    if (vector && whole && std::ranges::any_of(*vector, [](double part) { return part != std::floor(part); }))
+      diagnostics.error(node.place, fmt::format("{} must be three whole numbers, not {}", known.name, graph::to_string(*vector)));
+    else if (vector)
+      return graph::Value(*vector);
   } else if (const auto number = config::read_number(node, known.name, {}, diagnostics)) {
     return graph::Value(*number);
   }
   return std::nullopt;
+}
+
+std::string_view pattern(graph::ElementType type) {
+  if (type == graph::ElementType::ivec3) return "[NX, NY, NZ]";
+  return type == graph::ElementType::vec3 ? "[X, Y, Z]" : "VALUE";
 }
 
 // Fixed-point scales from the arrays: no node can get more than all particles have.
@@ -97,8 +107,8 @@ void set_constants(const graph::StageSpec& spec, const GivenArrays& arrays, cons
                                   from_arrays ? "from the arrays" : "not given"));
     } else if (name != "grid_nodes" || !works_on_nodes) {  // else their size is missing, which is told
       diagnostics.error({"try " + spec.name, 0, 0},
-                        fmt::format("needs '{}' ({}): {}; give --constant {}={} or --scene SCENE", name, constant->unit,
-                                    constant->doc, name, constant->type == graph::ElementType::vec3 ? "[X, Y, Z]" : "VALUE"));
+                        fmt::format("needs '{}' ({}, {}): {}; give --constant {}={} or --scene SCENE", name,
+                                    graph::name(constant->type), constant->unit, constant->doc, name, pattern(constant->type)));
     }
   }
 }

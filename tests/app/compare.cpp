@@ -53,6 +53,23 @@ TEST_CASE("a pipeline compared with itself differs in nothing", "[app]") {
   for (const json& pass : result.at("passes")) CHECK(pass.at("a").at("launches") == pass.at("b").at("launches"));
 }
 
+TEST_CASE("that a pipeline is compared with itself is said, by whichever name it goes", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("scene.yaml", small_scene), file = FIRN_SOURCE_DIR "/pipelines/mpm_snow.yaml";
+  const auto said = [&](firn::test::Words words) {
+    words.insert(words.begin(), {"compare", "mpm_snow"});
+    words.insert(words.end(), {"--scene", scene, "--steps", "1", "--image", "64x48", "--out", folder / "out"});
+    const Outcome outcome = run_firn(words);
+    INFO(outcome.err);
+    CHECK(outcome.status == 0);
+    return outcome.err.find("A and B are the same pipeline with the same settings") != std::string::npos;
+  };
+  CHECK(said({"mpm_snow"}));
+  CHECK(said({file, "--set-a", "kernel=cubic", "--set-b", "kernel=cubic"}));
+  CHECK_FALSE(said({file, "--set-b", "kernel=quadratic"}));
+  CHECK_FALSE(said({"mpm_thesis"}));
+}
+
 TEST_CASE("two pipelines for one model agree to rounding, and their passes stand beside each other", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("scene.yaml", small_scene);
