@@ -170,7 +170,10 @@ json spec_json(const graph::StageSpec& spec, const graph::Environment& known) {
 
 void print_spec(const graph::StageSpec& spec, const graph::Environment& known) {
   fmt::print("{}\n  {}\n", spec.name, spec.doc);
-  if (!spec.equation.empty()) fmt::print("  Equation: {}\n", spec.equation);
+  if (!spec.equation.empty()) {
+    const bool tagged = spec.equation.find("[M ") != std::string::npos || spec.equation.find("[H ") != std::string::npos;
+    fmt::print("  Equation: {}{}\n", spec.equation, tagged ? " (docs/references.md says of which works)" : "");
+  }
   if (!spec.ports.empty()) {
     std::vector<std::vector<std::string>> rows{{"port", "type", "domain", "access", "usage", "unit", "what it is"}};
     for (const graph::Port& port : spec.ports) {

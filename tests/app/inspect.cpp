@@ -33,8 +33,8 @@ TEST_CASE("inspect tells everything a stage's spec says, as text and as JSON", "
   REQUIRE(plain.status == 0);
   REQUIRE(json.status == 0);
   for (const char* fragment :
-       {"Equation: [H 3.12-3.24]", "overlap", "cells", "m/s", "only where cells is active", "thesis or appendix", "from 1",
-        "heightfield/contour.comp over cells, in groups of 64", "Used by: heightfield_contour"}) {
+       {"Equation: [H 3.12-3.24] (docs/references.md says of which works)", "overlap", "cells", "m/s", "only where cells is active",
+        "thesis or appendix", "from 1", "heightfield/contour.comp over cells, in groups of 64", "Used by: heightfield_contour"}) {
     INFO("expected: " << fragment);
     CHECK(plain.out.find(fragment) != std::string::npos);
   }
