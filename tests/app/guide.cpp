@@ -1,65 +1,21 @@
 // docs/guide/, followed to the letter: every file that it has the reader write is written, every command that it names is run.
 
-#include <sys/wait.h>
-
-#include <cstdlib>
 #include <regex>
-#include <sstream>
-#include <vector>
 
-#include "tests/app/child.h"
+#include "tests/app/documents.h"
 #include "tests/catch.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 
+using firn::test::Block;
+using firn::test::blocks_of;
 using firn::test::Folder;
 using firn::test::read_file;
+using firn::test::run_commands;
 
 const fs::path guide = fs::path(FIRN_SOURCE_DIR) / "docs/guide";
-
-// What stands between fences, and what the text before says where it belongs.
-struct Block {
-  std::string language, file, text;
-};
-
-std::vector<Block> blocks_of(const std::string& markdown) {
-  std::vector<Block> blocks;
-  std::istringstream lines(markdown);
-  std::string line, before;
-  const std::regex named("`([a-z_/.]+)`[^`]*:$");
-  while (std::getline(lines, line)) {
-    if (!line.starts_with("```")) {
-      if (!line.empty()) before = line;
-      continue;
-    }
-    Block block{line.substr(3), "", ""};
-    std::smatch found;
-    if (std::regex_search(before, found, named)) block.file = found[1];
-    while (std::getline(lines, line) && line != "```") block.text += line + "\n";
-    blocks.push_back(block);
-    before.clear();
-  }
-  return blocks;
-}
-
-// Runs what a reader would type; lines that end in a backslash go on.
-void run_commands(const std::string& text, const Folder& clone) {
-  std::istringstream lines(text);
-  for (std::string line, command; std::getline(lines, line);) {
-    command += line + "\n";
-    if (line.ends_with("\\")) continue;
-    std::smatch found;
-    const int expected = std::regex_search(command, found, std::regex("# ends with status ([0-9])")) ? std::stoi(found[1]) : 0;
-    const std::string script = clone.write("command.sh", "cd '" + clone / "" + "'\n" + command), log = clone / "command.log";
-    const int state = std::system(("bash '" + script + "' > '" + log + "' 2>&1 < /dev/null").c_str());
-    INFO(command << read_file(log));
-    REQUIRE(WIFEXITED(state));
-    REQUIRE(WEXITSTATUS(state) == expected);
-    command.clear();
-  }
-}
 
 // What a chapter uses of a clone.
 void follow(const std::string& chapter) {

@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <vector>
 
 #include "scene/npy.h"
@@ -88,6 +89,7 @@ TEST_CASE("a stage's file that includes what is not there is bad input", "[app]"
 
 TEST_CASE("a shader of Firn's own that does not compile ends with status 1", "[app]") {
   const Folder folder;
+  std::filesystem::create_directories(folder / "shaders/mpm");
   folder.write("shaders/mpm/advect.comp", "void main() { postion[0] = 1; }\n");
   const Outcome outcome = run_firn(firn::test::run_without_pictures("mpm_snow", folder.write("scene.yaml", firn::test::small_scene),
                                                                     folder / "out", {"--steps", "1"}),
