@@ -9,6 +9,7 @@
 
 #include "config/nearest.h"
 #include "config/reader.h"
+#include "graph/format_version.h"
 #include "graph/merge.h"
 #include "graph/stage_file.h"
 #include "graph/stage_uses.h"
@@ -150,8 +151,7 @@ PipelineSpec load_pipeline(const std::filesystem::path& file, const Edits& edits
     if (Node* list = root.find(phase)) config::substitute(*list, pipeline.parameters, diagnostics);
 
   Reader reader(root, "a pipeline", diagnostics);
-  if (reader.integer("firn", 0, {.min = 1, .max = 1}) == 0 && root.kind == Node::Kind::map && !reader.has("firn"))
-    diagnostics.error(root.place, "missing key 'firn': a pipeline begins with 'firn: 1', the version of its format");
+  read_version(reader, "a pipeline");
   pipeline.name = reader.text("name", file.stem().string());
   pipeline.doc = reader.text("doc", "");
   pipeline.scene = reader.text("scene", "");

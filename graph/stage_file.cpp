@@ -11,6 +11,7 @@
 #include "config/parsed.h"
 #include "config/reader.h"
 #include "graph/environment.h"
+#include "graph/format_version.h"
 #include "graph/spec_problems.h"
 
 namespace firn::graph {
@@ -76,14 +77,14 @@ class HeadReader {
 
   StageSpec read(const Node& root) {
     Reader reader(root, "the head of a stage", diagnostics_);
-    if (reader.integer("firn", 0, {.min = 1, .max = 1}) == 0 && root.kind == Node::Kind::map && !reader.has("firn") && whole_)
-      diagnostics_.error(root.place, "missing key 'firn': a stage's head begins with 'firn: 1', the version of its format");
+    if (whole_ || reader.has("firn")) read_version(reader, "a stage's head");
     Part& head = part("", root.place, root);
     StageSpec spec;
     spec.name = text(reader, head, "name");
     spec.doc = text(reader, head, "doc");
     spec.equation = reader.text("equation", "");
-    if (const Node* ports = require(reader, "ports")) each(*ports, "ports", [&](const Entry& e) { spec.ports.push_back(port(e)); });
+    if (const Node* ports = require(reader, head, "ports"))
+      each(*ports, "ports", [&](const Entry& e) { spec.ports.push_back(port(e)); });
     if (const Node* parameters = reader.find("parameters"))
       each(*parameters, "parameters", [&](const Entry& e) { spec.parameters.push_back(parameter(e)); });
     for (const Node& name : list(reader.find("constants"), "constants"))
@@ -129,10 +130,15 @@ class HeadReader {
     return value;
   }
 
-  const Node* require(Reader& reader, const char* key) { return whole_ ? reader.require(key) : reader.find(key); }
+  const Node* require(Reader& reader, Part& part, const char* key) {
+    const Node* value = whole_ ? reader.require(key) : reader.find(key);
+    if (value == nullptr) part.wrong.insert(key);
+    return value;
+  }
 
   std::string text(Reader& reader, Part& part, const char* key) {
-    return noting(part, key, [&] { return require(reader, key) == nullptr ? std::string() : reader.text(key, ""); });
+    if (require(reader, part, key) == nullptr) return "";
+    return noting(part, key, [&] { return reader.text(key, ""); });
   }
 
   template <typename Visit>
@@ -156,7 +162,7 @@ class HeadReader {
       return noting(part, key, [&] { return reader.choice(key, choices, fallback); });
     };
     const auto required = [&](const char* key, const std::vector<std::string>& choices, const char* fallback) {
-      return noting(part, key, [&] { return require(reader, key) ? reader.choice(key, choices, fallback) : fallback; });
+      return require(reader, part, key) == nullptr ? fallback : choice(key, choices, fallback);
     };
     Port port;
     port.name = e.key;
@@ -184,17 +190,22 @@ class HeadReader {
     if (parameter.min > parameter.max)
       diagnostics_.error(part.keys.at("min"),
                          fmt::format("min must be at most max, which is {:g}, not {:g}", parameter.max, parameter.min));
-    const Node* choices = parameter.kind == ParameterKind::choice ? require(reader, "choices") : reader.find("choices");
+    const Node* choices = parameter.kind == ParameterKind::choice ? require(reader, part, "choices") : reader.find("choices");
     for (const Node& choice : list(choices, "choices"))
       if (const auto text = config::read_text(choice, "a choice", diagnostics_)) parameter.choices.push_back(*text);
-    // A default is held to what is allowed once that is known.
-    const bool bounds_known = diagnostics_.all().size() == before && !part.wrong.contains("kind");
+    // A default is held to what is known to be allowed.
+    const bool bounds_known = diagnostics_.all().size() == before;
+    if (!bounds_known) {
+      parameter.min = ParameterSpec().min;
+      parameter.max = ParameterSpec().max;
+    }
     parameter.unit = reader.text("unit", parameter.unit);
     parameter.doc = text(reader, part, "doc");
-    if (const Node* initial = noting(part, "default", [&] { return require(reader, "default"); }); initial && bounds_known)
-      parameter.initial = noting(part, "default", [&] { return value(*initial, parameter); });
-    else
+    const Node* initial = require(reader, part, "default");
+    if (part.wrong.contains("kind") || (parameter.kind == ParameterKind::choice && !bounds_known))
       part.wrong.insert("default");
+    else if (initial != nullptr)
+      parameter.initial = noting(part, "default", [&] { return value(*initial, parameter); });
     reader.finish();
     return parameter;
   }

@@ -159,7 +159,13 @@ TEST_CASE("a mistake of a head brings no error that only follows from it") {
   CHECK(errors_of(with_all({{"type: vec3", "type: rgba8"}, {"usage: sampled", "usage: storage"}})) ==
         Lines{"b.comp:9:16: error: port wind: rgba8 is only in textures"});
   CHECK(errors_of(with("kind: boolean", "kind: bolean")).size() == 1);
+  CHECK(errors_of(with("{kind: boolean, default: false, doc: whether}", "false")) ==
+        Lines{"b.comp:13:9: error: parameter wrap must be a map of 'key: value', not 'false'"});
+  CHECK(errors_of(with("{type: float, domain: points, access: read_write, unit: m, doc: a port}", "[float]")).size() == 1);
+  CHECK(errors_of("/*\n- firn: 1\n*/\n").size() == 1);
   CHECK(errors_of(with("choices: [fine, coarse], ", "")) == Lines{"b.comp:14:9: error: parameter mode needs the key 'choices'"});
+  CHECK(places_of(with_all({{"default: 1.5, min: 0", "default: up, min: low"}, {"max: 10", "max: high"}})) ==
+        Lines{"11:21", "11:30", "11:40"});
   CHECK(errors_of(with("max: 10", "max: -10")) == Lines{"b.comp:11:31: error: min must be at most max, which is -10, not 0"});
   CHECK(errors_of(with("domain: points, access: read_write, unit: m, doc: a port", "access: read_write, unit: m, doc: a port")) ==
         Lines{"b.comp:8:6: error: port x needs the key 'domain'"});
