@@ -90,17 +90,8 @@ Port port(const char* name, Access access, Usage usage) {
   throw std::logic_error(std::string("no port of the height field is called ") + name);
 }
 
-Port optional(const char* name, Access access) {
-  Port result = port(name, access);
-  result.optional = true;
-  return result;
-}
-
-Port optional_body(const char* name, Access access) {
-  Port result = mpm::body(name, access);
-  result.optional = true;
-  return result;
-}
+Port optional(const char* name, Access access) { return mpm::optional(port(name, access)); }
+Port optional_body(const char* name, Access access) { return mpm::optional(mpm::body(name, access)); }
 
 std::vector<Port> ports(std::initializer_list<const char*> names, Access access) {
   std::vector<Port> result;

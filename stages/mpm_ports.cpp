@@ -30,10 +30,8 @@ Port volume(Access access, Usage usage) {
   return port("volume", ElementType::float1, "particles", access, usage, "m3", "initial volume V_p0 of particles");
 }
 Port density(Access access) {
-  Port result =
-      port("density", ElementType::float1, "particles", access, Usage::storage, "kg/m3", "initial density rho_p0 about particles");
-  result.optional = true;
-  return result;
+  return optional(
+      port("density", ElementType::float1, "particles", access, Usage::storage, "kg/m3", "initial density rho_p0 about particles"));
 }
 Port elastic(Access access, Usage usage) {
   return port("elastic", ElementType::mat3, "particles", access, usage, "1", "elastic part FE of the deformation gradient");
@@ -105,11 +103,7 @@ Port order(Access access, Usage usage) {
   return unrepeatable(port("order", ElementType::uint1, "particles", access, usage, "1",
                            "numbers of the particles, sorted by cell, then by number"));
 }
-Port optional_order() {
-  Port port = order(Access::read);
-  port.optional = true;
-  return port;
-}
+Port optional_order() { return optional(order(Access::read)); }
 Port cell_start(Access access, Usage usage) {
   return port("cell_start", ElementType::uint1, "nodes", access, usage, "1",
               "place in `order` of every cell's first particle; the next cell of the row gives its end");
@@ -188,10 +182,7 @@ std::vector<Port> bodies(Access access, Usage usage) {
   for (const char* name :
        {"body_kind", "body_size", "body_position", "body_orientation", "body_velocity", "body_spin", "body_friction"})
     ports.push_back(body(name, access, usage));
-  for (Port distances : body_distances(access, Usage::sampled)) {
-    distances.optional = true;
-    ports.push_back(distances);
-  }
+  for (const Port& distances : body_distances(access, Usage::sampled)) ports.push_back(optional(distances));
   return ports;
 }
 std::vector<Port> body_distances(Access access, Usage usage) {
@@ -207,6 +198,10 @@ std::vector<Port> key_frames(Access access) {
           port("path_orientation", ElementType::vec4, frames, access, Usage::storage, "1", "orientations at key frames")};
 }
 
+Port optional(Port port) {
+  port.optional = true;
+  return port;
+}
 Port unrepeatable(Port port) {
   port.repeatable = false;
   return port;

@@ -76,6 +76,7 @@ std::vector<Port> key_frames(Access access);                               // of
 Port body(const char* name, Access access, Usage usage = Usage::storage);  // one of them
 
 // Of lists that are made as invocations come.
+Port optional(Port port);
 Port unrepeatable(Port port);
 // Only where the choice parameter has this value.
 Port when(Port port, const char* parameter, const char* value);

@@ -7,22 +7,14 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
-#include <memory>
 #include <stdexcept>
-#include <system_error>
+
+#include "stages/series.h"
 
 namespace firn::stages {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail(const fs::path& file, const std::string& why) {
-  throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), why));
-}
-
-struct CloseFile {
-  void operator()(std::FILE* file) const { std::fclose(file); }
-};
 
 // What libpng calls and keeps during one picture. libpng is C: nothing may be thrown through it.
 struct Writing {
@@ -61,20 +53,6 @@ bool encode(Writing& writing, png_structp png, png_infop info, const Picture& pi
   return true;
 }
 
-void write_to(const fs::path& part, const fs::path& file, const Picture& picture, int compression) {
-  std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(part.c_str(), "wbe"));
-  if (!stream) fail(file, std::strerror(errno));
-  Writing writing{stream.get(), 0, {}};
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writing, Writing::on_error, Writing::on_warning);
-  if (png == nullptr) fail(file, "libpng cannot be used");
-  png_infop info = png_create_info_struct(png);
-  const bool written = info != nullptr && encode(writing, png, info, picture, compression);
-  png_destroy_write_struct(&png, info != nullptr ? &info : nullptr);
-  if (!written) fail(file, writing.error != 0 ? std::strerror(writing.error) : writing.complaint);
-  // Disks may run full as late as here.
-  if (std::fclose(stream.release()) != 0) fail(file, std::strerror(errno));
-}
-
 }  // namespace
 
 Picture picture_of(std::span<const std::byte> rgba, int width, int height) {
@@ -92,21 +70,15 @@ Picture picture_of(std::span<const std::byte> rgba, int width, int height) {
 }
 
 void write_png(const fs::path& file, const Picture& picture, int compression) {
-  fs::path part = file;
-  part += ".part";
-  std::error_code error;
-  try {
-    write_to(part, file, picture, compression);
-  } catch (...) {
-    fs::remove(part, error);
-    throw;
-  }
-  fs::rename(part, file, error);
-  if (error) {
-    std::error_code ignored;
-    fs::remove(part, ignored);
-    fail(file, error.message());
-  }
+  write_stream_beside(file, [&](std::FILE* stream) {
+    Writing writing{stream, 0, {}};
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &writing, Writing::on_error, Writing::on_warning);
+    if (png == nullptr) fail_to_write(file, "libpng cannot be used");
+    png_infop info = png_create_info_struct(png);
+    const bool written = info != nullptr && encode(writing, png, info, picture, compression);
+    png_destroy_write_struct(&png, info != nullptr ? &info : nullptr);
+    if (!written) fail_to_write(file, writing.error != 0 ? std::strerror(writing.error) : writing.complaint);
+  });
 }
 
 }  // namespace firn::stages

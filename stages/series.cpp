@@ -14,10 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& file, const std::string& why) {
-  throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), why));
-}
-
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
 };
@@ -39,16 +35,27 @@ void write_beside(const fs::path& file, const std::function<void(const fs::path&
   fs::rename(part, file, error);
   if (!error) return;
   fs::remove(part, ignored);
-  fail(file, error.message());
+  fail_to_write(file, error.message());
+}
+
+void write_stream_beside(const fs::path& file, const std::function<void(std::FILE* stream)>& write) {
+  write_beside(file, [&](const fs::path& part) {
+    std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(part.c_str(), "wbe"));
+    if (!stream) fail_to_write(file, std::strerror(errno));
+    write(stream.get());
+    // Disks may run full as late as here.
+    if (std::fclose(stream.release()) != 0) fail_to_write(file, std::strerror(errno));
+  });
 }
 
 void write_file(const fs::path& file, std::string_view bytes) {
-  write_beside(file, [&](const fs::path& part) {
-    std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(part.c_str(), "wbe"));
-    if (!stream || std::fwrite(bytes.data(), 1, bytes.size(), stream.get()) != bytes.size()) fail(file, std::strerror(errno));
-    // Disks may run full as late as here.
-    if (std::fclose(stream.release()) != 0) fail(file, std::strerror(errno));
+  write_stream_beside(file, [&](std::FILE* stream) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), stream) != bytes.size()) fail_to_write(file, std::strerror(errno));
   });
+}
+
+void fail_to_write(const fs::path& file, const std::string& why) {
+  throw std::runtime_error(fmt::format("cannot write {}: {}", file.string(), why));
 }
 
 Series::Series(fs::path folder, std::string stem, std::string extension)

@@ -3,6 +3,7 @@
 // Files of results: whole or not there, one per frame, and lists of them with their times.
 
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -15,7 +16,11 @@ namespace firn::stages {
 // `write` makes the file it is given, which lies beside `file` and is then renamed. However that ends, no half file is left.
 // Throws std::runtime_error naming `file`.
 void write_beside(const std::filesystem::path& file, const std::function<void(const std::filesystem::path& part)>& write);
+// The same, with the file open; it is closed for it, and that the disk runs full as late as then is told, too.
+void write_stream_beside(const std::filesystem::path& file, const std::function<void(std::FILE* stream)>& write);
 void write_file(const std::filesystem::path& file, std::string_view bytes);
+
+[[noreturn]] void fail_to_write(const std::filesystem::path& file, const std::string& why);
 
 // One kind of file in the folder of exports: particles_0000.vtp, particles_0001.vtp, ... For files of VTK's XML kinds also
 // particles.vtp.series and particles.pvd, which list them with their times. Files of the same names and of later frames that an

@@ -1,5 +1,7 @@
 #include "stages/view_ports.h"
 
+#include <utility>
+
 #include "stages/heightfield_ports.h"
 #include "stages/mpm_ports.h"
 
@@ -54,9 +56,8 @@ std::vector<Port> optional_facets() {
 }
 
 Port optional(Port port) {
-  port.optional = true;
   port.usage = Usage::sampled;
-  return port;
+  return mpm::optional(std::move(port));
 }
 
 std::vector<graph::PortUse> sampled(std::initializer_list<const char*> names) {

@@ -102,9 +102,8 @@ class Emitting final : public graph::HostStage {
 graph::StageSpec emit() {
   const auto access = Access::read_write;
   const auto host = Usage::host;
-  Port density_of = density(access), cell = particle_cell(access);
+  Port density_of = density(access), cell = optional(particle_cell(access));
   density_of.usage = cell.usage = host;
-  cell.optional = true;
   std::vector<Port> ports{position(access, host),
                           velocity(access, host),
                           mass(access, host),

@@ -67,7 +67,7 @@ std::vector<ParameterSpec> parameters() {
 // The mass of nodes, where the pipeline has a grid, and where nodes are stored.
 std::vector<Port> masses() {
   std::vector<Port> ports = mpm::joined({mpm::by_nodes(mpm::grid_mass, graph::Access::read, Usage::sampled), mpm::stencil_ports()});
-  for (Port& port : ports) port.optional = true;
+  for (Port& port : ports) port = mpm::optional(port);
   return ports;
 }
 
