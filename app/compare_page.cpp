@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <stdexcept>
 
 #include "app/compare_report.h"
+#include "app/files.h"
 
 namespace firn::app {
 namespace {
@@ -35,17 +34,6 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
-std::string read_file(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-void write_file(const fs::path& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  if (!stream.flush()) throw std::runtime_error(fmt::format("cannot write {}", file.string()));
-}
-
 constexpr const char* style = R"(
 body { font: 15px/1.45 system-ui, sans-serif; color: #1d2733; max-width: 1240px; margin: 2em auto; padding: 0 1em; }
 h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 2em; }
@@ -60,7 +48,7 @@ tr.all td { font-weight: 600; }
 
 std::string figure(const fs::path& file, const std::string& caption) {
   return fmt::format("<figure><img src=\"data:image/png;base64,{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n",
-                     base64(read_file(file)), caption, caption);
+                     base64(read_whole(file)), caption, caption);
 }
 
 std::string pictures(const Comparison& comparison, const fs::path& folder) {

@@ -5,10 +5,10 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "app/choice.h"
 #include "app/device_profile.h"
+#include "app/files.h"
 #include "app/load.h"
 #include "app/verbs.h"
 #include "stages/process.h"
@@ -22,17 +22,6 @@ struct ExplainOptions {
   Inputs inputs;
   std::string format = "text", output, device = "software";
 };
-
-void write_text(const std::string& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  if (!stream.flush()) throw std::runtime_error(fmt::format("cannot write {}", file));
-}
-
-std::string read_text(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 // A new folder below the system's temporary one, removed at the end.
 class TemporaryFolder {
@@ -60,10 +49,10 @@ std::string drawn(const std::string& dot) {
         "what it would draw");
   const TemporaryFolder folder;
   const fs::path source = folder.path / "plan.dot", picture = folder.path / "plan.svg", errors = folder.path / "errors";
-  write_text(source.string(), dot);
+  write_file(source, dot);
   stages::Process process(graphviz, {"-Tsvg", "-o", picture.string(), source.string()}, "", errors);
-  if (process.finish() != 0) throw std::runtime_error(fmt::format("dot could not draw the plan: {}", read_text(errors)));
-  return read_text(picture);
+  if (process.finish() != 0) throw std::runtime_error(fmt::format("dot could not draw the plan: {}", read_whole(errors)));
+  return read_whole(picture);
 }
 
 int explain(const ExplainOptions& options) {
@@ -86,7 +75,7 @@ int explain(const ExplainOptions& options) {
   if (options.output.empty())
     fmt::print("{}", result);
   else
-    write_text(options.output, result);
+    write_file(options.output, result);
   return Status::done;
 }
 

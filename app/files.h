@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <string_view>
 
@@ -17,7 +18,7 @@ std::string shown(const std::filesystem::path& path);
 std::ifstream open_regular(const std::filesystem::path& file);
 
 // All of it. Throws std::runtime_error besides where it is larger than `most` bytes.
-std::string read_whole(const std::filesystem::path& file, std::uint64_t most);
+std::string read_whole(const std::filesystem::path& file, std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
 // Throws std::runtime_error naming the file, as where the disk is full.
 void write_file(const std::filesystem::path& file, std::string_view text);

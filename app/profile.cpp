@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <fstream>
-
 #include "app/choice.h"
 #include "app/device_profile.h"
+#include "app/files.h"
 #include "app/verbs.h"
 
 namespace firn::app {
@@ -40,8 +39,7 @@ int profile(const ProfileOptions& options) {
   if (options.output.empty()) {
     fmt::print("{}", text);
   } else {
-    std::ofstream file(options.output, std::ios::binary);
-    if (!(file << text).flush()) throw std::runtime_error(fmt::format("cannot write {}", options.output));
+    write_file(options.output, text);
     spdlog::info("{} in {}", options.format, options.output);
   }
   if (options.format != "table") spdlog::info("times by {}", profile.clock);

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <stdexcept>
-
 #include "app/choice.h"
+#include "app/files.h"
 #include "app/verbs.h"
 #include "stages/register.h"
 
@@ -19,9 +17,7 @@ int schema(const std::string& kind, const std::string& output) {
     fmt::print("{}", text);
     return Status::done;
   }
-  std::ofstream stream(output, std::ios::binary);
-  stream << text;
-  if (!stream.flush()) throw std::runtime_error(fmt::format("cannot write {}", output));
+  write_file(output, text);
   return Status::done;
 }
 

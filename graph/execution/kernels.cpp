@@ -80,25 +80,16 @@ std::filesystem::path find_shader(const std::string& file, std::span<const std::
   throw gpu::ShaderError(fmt::format("{}: error: no such shader below:{}", file, searched));
 }
 
+static_assert(static_cast<int>(gpu::Topology::points) == static_cast<int>(graph::Topology::points) &&
+                  static_cast<int>(gpu::Topology::lines) == static_cast<int>(graph::Topology::lines) &&
+                  static_cast<int>(gpu::Topology::triangles) == static_cast<int>(graph::Topology::triangles) &&
+                  static_cast<int>(gpu::Topology::triangle_strip) == static_cast<int>(graph::Topology::triangle_strip) &&
+                  static_cast<int>(gpu::Topology::patches) == static_cast<int>(graph::Topology::patches),
+              "kinds of what is drawn are passed on as they are");
+
 gpu::DrawState draw_state(const Draw& draw) {
   gpu::DrawState state;
-  switch (draw.topology) {
-    case graph::Topology::points:
-      state.topology = gpu::Topology::points;
-      break;
-    case graph::Topology::lines:
-      state.topology = gpu::Topology::lines;
-      break;
-    case graph::Topology::triangles:
-      state.topology = gpu::Topology::triangles;
-      break;
-    case graph::Topology::triangle_strip:
-      state.topology = gpu::Topology::triangle_strip;
-      break;
-    case graph::Topology::patches:
-      state.topology = gpu::Topology::patches;
-      break;
-  }
+  state.topology = static_cast<gpu::Topology>(draw.topology);
   state.patch_vertices = draw.patch_vertices;
   state.depth_test = draw.depth.empty() ? gpu::DepthTest::off : gpu::DepthTest::less_equal;
   state.depth_write = !draw.depth.empty() && draw.depth_write;

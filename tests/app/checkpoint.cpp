@@ -15,6 +15,7 @@
 
 #include "stages/process.h"
 #include "tests/app/inputs.h"
+#include "tests/app/manifests.h"
 #include "tests/catch.h"
 
 using namespace firn::test;
@@ -112,7 +113,7 @@ TEST_CASE("a run that goes on from a checkpoint leaves what one leaves that was 
   CHECK(same_frames);
   CHECK(frames_in(whole).size() == 10);
   CHECK(metrics_in(whole) == metrics_in(halved));
-  const nlohmann::json manifest = nlohmann::json::parse(read_file(halved / "manifest.json"));
+  const nlohmann::json manifest = manifest_in(halved);
   CHECK(manifest.at("resumed_from") == nlohmann::json({"step_00000015"}));
   CHECK(manifest.at("result").at("steps") == 45);
   if (firn::stages::find_program("ffprobe").empty() || firn::stages::find_program("ffmpeg").empty()) {
@@ -187,7 +188,7 @@ TEST_CASE("an interrupted run leaves a checkpoint, names it, and goes on to the 
   const std::vector<std::string> names = names_in(folder / "out/checkpoints");
   REQUIRE(names.size() == 1);
   CHECK(stopped.err.find("checkpoints/" + names.front()) != std::string::npos);
-  const int step = nlohmann::json::parse(read_file(folder / "out/manifest.json")).at("result").at("steps");
+  const int step = manifest_in(folder / "out").at("result").at("steps");
   CHECK(names.front() == fmt::format("step_{:08}", step));
 
   const std::string end = std::to_string(step + 20), resumed = folder / "resumed.npy", whole = folder / "whole.npy";

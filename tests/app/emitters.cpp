@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "tests/app/inputs.h"
+#include "tests/app/manifests.h"
 #include "tests/catch.h"
 
 using namespace firn::test;
@@ -51,8 +52,6 @@ std::map<std::string, std::vector<double>> metrics_in(const fs::path& run) {
   }
   return columns;
 }
-
-nlohmann::json manifest_in(const fs::path& folder) { return nlohmann::json::parse(read_file(folder / "manifest.json")); }
 
 // Buffers of particles in a checkpoint that repeat from run to run, with their hashes.
 std::string particles_in(const fs::path& checkpoint) {

@@ -1,12 +1,11 @@
 #include <csignal>
-#include <nlohmann/json.hpp>
 
 #include "tests/app/inputs.h"
+#include "tests/app/manifests.h"
 #include "tests/catch.h"
 
 using firn::test::Folder;
 using firn::test::Outcome;
-using firn::test::read_file;
 using firn::test::run_firn;
 using firn::test::run_without_pictures;
 using firn::test::small_scene;
@@ -14,9 +13,7 @@ using firn::test::Words;
 
 namespace {
 
-nlohmann::json result_in(const Folder& folder) {
-  return nlohmann::json::parse(read_file(folder / "out/manifest.json")).at("result");
-}
+nlohmann::json result_in(const Folder& folder) { return firn::test::manifest_in(folder / "out").at("result"); }
 
 // Runs on the small scene with `more` words, expects that the numbers break, and that manifest and message agree.
 void check_broken(const std::string& pipeline, const Words& more, const Words& fragments) {

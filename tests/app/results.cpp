@@ -4,12 +4,14 @@
 
 #include "scene/npy.h"
 #include "tests/app/inputs.h"
+#include "tests/app/manifests.h"
 #include "tests/catch.h"
 
 using firn::scene::NpyArray;
 using firn::scene::NpyShape;
 using firn::scene::read_npy;
 using firn::test::Folder;
+using firn::test::manifest_in;
 using firn::test::Outcome;
 using firn::test::read_file;
 using firn::test::run_firn;
@@ -67,7 +69,7 @@ TEST_CASE("dumps have the shapes of their domains: (N, 3), (N, 3, 3), (nz, ny, n
       run_firn(run_without_pictures("mpm_snow", folder.write("scene.yaml", small_scene), folder / "out", words));
   INFO(outcome.err);
   REQUIRE(outcome.status == 0);
-  const nlohmann::json manifest = nlohmann::json::parse(read_file(folder / "out/manifest.json"));
+  const nlohmann::json manifest = manifest_in(folder / "out");
   const std::uint64_t count = manifest.at("sizes").at("particles");
   CHECK(count > 100);
   const NpyArray position = read_npy(file("position")), elastic = read_npy(file("elastic")), mass = read_npy(file("mass")),
@@ -111,7 +113,7 @@ TEST_CASE("the option --steps, --frames and the scene's end stop a run there, as
     const Outcome outcome = run_firn(run_without_pictures("mpm_thesis", scene, folder / "out", words));
     INFO(outcome.err);
     REQUIRE(outcome.status == 0);
-    return nlohmann::json::parse(read_file(folder / "out/manifest.json")).at("result");
+    return manifest_in(folder / "out").at("result");
   };
   CHECK(result({"--steps", "0"}).at("steps") == 0);
   const nlohmann::json seven = result({"--steps", "7"});
@@ -132,7 +134,7 @@ TEST_CASE("a manifest is written whatever bytes the command line has", "[app]") 
       run_firn(run_without_pictures("mpm_thesis", folder.write("scene.yaml", small_scene), output, {"--steps", "1"}));
   INFO(outcome.err);
   CHECK(outcome.status == 0);
-  CHECK(nlohmann::json::parse(read_file(output + "/manifest.json")).at("result").at("steps") == 1);
+  CHECK(manifest_in(output).at("result").at("steps") == 1);
 }
 
 TEST_CASE("an automatic time step meets every frame and is as long as the CFL condition allows", "[app]") {
@@ -145,7 +147,7 @@ TEST_CASE("an automatic time step meets every frame and is as long as the CFL co
           pipeline, scene, folder / "out", {"--set", "scene.time.dt=auto", "--set", "scene.time.cfl=" + cfl, "--frames", "6"}));
       INFO(outcome.err);
       REQUIRE(outcome.status == 0);
-      const nlohmann::json result = nlohmann::json::parse(read_file(folder / "out/manifest.json"))["result"];
+      const nlohmann::json result = manifest_in(folder / "out")["result"];
       CHECK(result["simulated_seconds"].get<double>() == Approx(0.005).margin(1e-9));
       return result["steps"].get<int>();
     };

@@ -9,6 +9,7 @@
 
 #include "app/sha256.h"
 #include "tests/app/inputs.h"
+#include "tests/app/manifests.h"
 #include "tests/catch.h"
 
 using namespace firn::test;
@@ -16,8 +17,6 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 namespace {
-
-json manifest_in(const fs::path& run) { return json::parse(read_file(run / "manifest.json")); }
 
 std::vector<std::vector<std::string>> table_in(const fs::path& file) {
   std::vector<std::vector<std::string>> rows;
