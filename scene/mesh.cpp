@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 #include "config/diagnostics.h"
+#include "scene/stl.h"
 
 namespace firn::scene {
 
@@ -58,7 +59,8 @@ void check_header(const std::string& file) {
   fail(file, "this .ply file is broken: its header has no end (end_header)");
 }
 
-void check_name(const std::string& file) {
+// The file's ending in small letters.
+std::string checked_ending(const std::string& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) fail(file, "this file does not exist");
   if (!std::filesystem::is_regular_file(file, error)) fail(file, "this is no file");
@@ -66,7 +68,7 @@ void check_name(const std::string& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
   if (extension != ".obj" && extension != ".ply" && extension != ".stl")
     fail(file, fmt::format("a mesh must be an .obj, .ply or .stl file, not '{}'", extension));
-  if (extension == ".ply") check_header(file);
+  return extension;
 }
 
 // Are there polygons to be cut? Assimp's later steps rely on what is checked here and end the program where it is not so.
@@ -100,8 +102,13 @@ double signed_volume(const TriangleMesh& mesh) {
 // Adds triangles as they come from the file: joins corners in one place, leaves out triangles without area.
 class Joining {
  public:
-  explicit Joining(TriangleMesh& mesh) : mesh_(mesh) {}
-  int point(const Vector3d& place) {
+  Joining(TriangleMesh& mesh, const std::string& file, double scale) : mesh_(mesh), file_(file), scale_(scale) {}
+  // `number` of the corner in the file, from 0.
+  int point(const Eigen::Vector3f& corner, std::size_t number) {
+    const Vector3d place = scale_ * corner.cast<double>();
+    if (!place.allFinite())
+      fail(file_, fmt::format("corner {} of this mesh is ({}, {}, {}), but must be finite", number + 1, corner.x(), corner.y(),
+                              corner.z()));
     const auto [at, fresh] = index_.try_emplace({place.x(), place.y(), place.z()}, static_cast<int>(mesh_.points.size()));
     if (fresh) mesh_.points.push_back(place);
     return at->second;
@@ -117,8 +124,39 @@ class Joining {
 
  private:
   TriangleMesh& mesh_;
+  const std::string& file_;
+  double scale_;
   std::map<std::array<double, 3>, int> index_;
 };
+
+void add_stl(const std::string& file, Joining& joining) {
+  std::size_t corner = 0;
+  for (const StlTriangle& triangle : read_stl(file)) {
+    Triangle index;
+    for (std::size_t i = 0; i < 3; ++i) index[i] = joining.point(triangle[i], corner++);
+    joining.triangle(index);
+  }
+}
+
+void add_by_assimp(const std::string& file, Joining& joining) {
+  Assimp::Importer importer;
+  const aiScene* content = importer.ReadFile(file, 0);
+  if (content == nullptr) fail(file, fmt::format("this mesh cannot be read: {}", importer.GetErrorString()));
+  if (check_faces(*content, file)) content = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  if (content == nullptr) fail(file, fmt::format("this mesh cannot be cut into triangles: {}", importer.GetErrorString()));
+  for (unsigned m = 0; m < content->mNumMeshes; ++m) {
+    const aiMesh& part = *content->mMeshes[m];
+    std::vector<int> index(part.mNumVertices);
+    for (unsigned v = 0; v < part.mNumVertices; ++v) {
+      const aiVector3D& corner = part.mVertices[v];
+      index[v] = joining.point({corner.x, corner.y, corner.z}, v);
+    }
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      if (face.mNumIndices == 3) joining.triangle({index[face.mIndices[0]], index[face.mIndices[1]], index[face.mIndices[2]]});
+    }
+  }
+}
 
 MassProperties of_box(const TriangleMesh& mesh) {
   Vector3d low = mesh.points.front(), high = low;
@@ -137,29 +175,14 @@ MassProperties of_box(const TriangleMesh& mesh) {
 }  // namespace
 
 TriangleMesh read_mesh(const std::string& file, double scale) {
-  check_name(file);
-  Assimp::Importer importer;
-  const aiScene* content = importer.ReadFile(file, 0);
-  if (content == nullptr) fail(file, fmt::format("this mesh cannot be read: {}", importer.GetErrorString()));
-  if (check_faces(*content, file)) content = importer.ApplyPostProcessing(aiProcess_Triangulate);
-  if (content == nullptr) fail(file, fmt::format("this mesh cannot be cut into triangles: {}", importer.GetErrorString()));
-
+  const std::string ending = checked_ending(file);
   TriangleMesh mesh;
-  Joining joining(mesh);
-  for (unsigned m = 0; m < content->mNumMeshes; ++m) {
-    const aiMesh& part = *content->mMeshes[m];
-    std::vector<int> index(part.mNumVertices);
-    for (unsigned v = 0; v < part.mNumVertices; ++v) {
-      const aiVector3D& corner = part.mVertices[v];
-      const Vector3d place = scale * Vector3d(corner.x, corner.y, corner.z);
-      if (!place.allFinite())
-        fail(file, fmt::format("corner {} of this mesh is ({}, {}, {}), but must be finite", v + 1, corner.x, corner.y, corner.z));
-      index[v] = joining.point(place);
-    }
-    for (unsigned f = 0; f < part.mNumFaces; ++f) {
-      const aiFace& face = part.mFaces[f];
-      if (face.mNumIndices == 3) joining.triangle({index[face.mIndices[0]], index[face.mIndices[1]], index[face.mIndices[2]]});
-    }
+  Joining joining(mesh, file, scale);
+  if (ending == ".stl") {
+    add_stl(file, joining);
+  } else {
+    if (ending == ".ply") check_header(file);
+    add_by_assimp(file, joining);
   }
   if (mesh.triangles.empty()) fail(file, "this mesh has no triangles with an area");
   if (is_closed(mesh) && signed_volume(mesh) < 0)
