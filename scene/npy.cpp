@@ -239,7 +239,10 @@ void write_array(const std::filesystem::path& file, const NpyShape& shape, NpyKi
   stream.write(header.data(), static_cast<std::streamsize>(header.size()));
   stream.write(static_cast<const char*>(values), static_cast<std::streamsize>(count * info(kind).bytes));
   stream.close();
-  if (!stream) fail(name, "cannot be written to its end; is the disk full?");
+  if (stream) return;
+  std::error_code ignored;
+  if (std::filesystem::is_regular_file(file, ignored)) std::filesystem::remove(file, ignored);
+  fail(name, "cannot be written to its end; is the disk full?");
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ NpyArray read_npy(const std::filesystem::path& file);
 // What stands before the values of an array: version 1, a multiple of 64 bytes.
 std::string npy_header(NpyKind kind, const NpyShape& shape);
 
-// `values` holds as many values as the shape says. An existing file is replaced.
+// `values` holds as many values as the shape says. An existing file is replaced; where the disk is full there is none.
 void write_npy(const std::filesystem::path& file, const NpyShape& shape, std::span<const float> values);
 void write_npy(const std::filesystem::path& file, const NpyShape& shape, std::span<const double> values);
 void write_npy(const std::filesystem::path& file, const NpyShape& shape, std::span<const std::int32_t> values);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tests/scene/support.h"
+#include "tests/small_disk.h"
 
 namespace firn::test {
 
@@ -183,6 +184,19 @@ TEST_CASE("npy: a missing file and a folder are refused, and so is what cannot b
   CHECK_THROWS_AS(scene::write_npy(folder / "no/such/folder.npy", {4}, std::span<const float>(values)), std::runtime_error);
   CHECK_THROWS_AS(scene::write_npy(folder / "a.npy", {5}, std::span<const float>(values)), std::runtime_error);
   CHECK_FALSE(std::filesystem::exists(folder / "a.npy"));
+}
+
+TEST_CASE("npy: what does not fit on the disk is refused by name and is not left as half a file") {
+  const TemporaryFolder folder;
+  const std::vector<float> values(1000);
+  const auto write = [&] { scene::write_npy(folder / "a.npy", {1000}, std::span<const float>(values)); };
+  {
+    const SmallDisk disk(4127);  // one byte less than it takes
+    CHECK_THROWS_WITH(write(), (folder / "a.npy").string() + ": cannot be written to its end; is the disk full?");
+  }
+  CHECK_FALSE(std::filesystem::exists(folder / "a.npy"));
+  const SmallDisk disk(4128);
+  CHECK_NOTHROW(write());
 }
 
 }  // namespace firn::test
