@@ -11,6 +11,7 @@
 #include "app/export.h"
 #include "app/scene_kinds.h"
 #include "app/shipped.h"
+#include "config/links.h"
 #include "config/nearest.h"
 #include "scene/emission.h"
 
@@ -207,7 +208,8 @@ Loaded load(const Inputs& inputs, const std::string& output) {
   std::shared_ptr<const stages::Problem> problem;
   if (!loaded.scene_file.empty()) {
     if (inputs.scene.empty() && !exists(loaded.scene_file)) {
-      diagnostics.error(loaded.pipeline.scene_place, fmt::format("no such scene file: '{}'", loaded.scene_file));
+      diagnostics.error(loaded.pipeline.scene_place,
+                        fmt::format("no such scene file: '{}'{}", loaded.scene_file, config::circle_hint(loaded.scene_file)));
     } else if (!exists(loaded.scene_file)) {
       diagnostics.error({inputs.scene, 0, 0}, "there is no such file" + suggest_file(inputs.scene, shipped_scenes()));
     } else {

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/load.h"
+#include "config/links.h"
 #include "config/nearest.h"
 
 namespace firn::app {
@@ -32,6 +33,7 @@ std::vector<std::string> shipped_pipelines() { return names_below("pipelines", "
 std::vector<std::string> shipped_scenes() { return names_below("pipelines/scenes", ""); }
 
 std::string suggest_file(const std::string& name, std::vector<std::string> shipped) {
+  if (const std::string circle = config::circle_hint(name); !circle.empty()) return circle;
   const fs::path folder = fs::path(name).parent_path();
   std::vector<std::string> beside;
   std::error_code error;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <functional>
 
+#include "config/links.h"
 #include "config/nearest.h"
 #include "config/reader.h"
 
@@ -64,7 +65,7 @@ Node load_in_chain(const std::filesystem::path& file, std::vector<std::string> c
     const std::string other = path ? beside(include->place, *path) : "";
     std::error_code error;  // of names that are too long, circles of links and the like: there is no such file
     if (path && !std::filesystem::is_regular_file(other, error)) {
-      diagnostics.error(include->place, fmt::format("no such file: '{}'", other));
+      diagnostics.error(include->place, fmt::format("no such file: '{}'{}", other, config::circle_hint(other)));
     } else if (path && std::ranges::find(chain, canonical_name(other)) != chain.end()) {
       diagnostics.error(include->place, fmt::format("'{}' includes itself, directly or through others", *path));
     } else if (path) {

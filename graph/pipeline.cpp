@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "config/links.h"
 #include "config/nearest.h"
 #include "config/reader.h"
 #include "graph/format_version.h"
@@ -53,7 +54,7 @@ void read_stage_files(PipelineSpec& pipeline, Diagnostics& diagnostics) {
       if (std::filesystem::is_regular_file(path, error))
         by_path[path] = read_stage_file(path, diagnostics);
       else
-        diagnostics.error(use.place, fmt::format("no such stage file: '{}'", path));
+        diagnostics.error(use.place, fmt::format("no such stage file: '{}'{}", path, config::circle_hint(path)));
     }
     const std::optional<StageSpec>& spec = by_path[path];
     if (!spec) {

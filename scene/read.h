@@ -53,6 +53,10 @@ std::optional<Sphere> read_sphere(const Node& node, bool center_required, Diagno
 std::optional<Box> read_box(const Node& node, bool center_required, Diagnostics& diagnostics);
 std::optional<Capsule> read_capsule(const Node& node, Diagnostics& diagnostics);
 std::optional<Mesh> read_mesh(const Node& node, const std::filesystem::path& folder, Diagnostics& diagnostics);
+// Keys that place snow of a mesh, where they stand at or in the mesh of a body: errors that name the body's own keys.
+void tell_placement_of_snow(Reader& reader);
+// Keys of a mesh that stand beside it: errors that tell the right place.
+void tell_keys_of_mesh(Reader& reader, const std::vector<const char*>& keys);
 // With `rotate` and `translate` besides; reads the file. What is wrong with the mesh, but can be borne, is a warning.
 std::optional<SolidMesh> read_solid_mesh(const Node& node, const std::filesystem::path& folder, Diagnostics& diagnostics);
 

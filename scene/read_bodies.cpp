@@ -99,6 +99,8 @@ std::optional<Body> read_body(const Node& node, const std::filesystem::path& fol
   if (const Node* mass = reader.find("mass")) body.mass = config::read_number(*mass, "mass", positive, diagnostics);
   body.friction = reader.number("friction", body.friction, not_negative);
   body.color = vector3(reader, "color", body.color, {0, 1});
+  tell_placement_of_snow(reader);
+  if (kind && kind->name == "mesh") tell_keys_of_mesh(reader, {"file", "scale"});
   reader.finish();
 
   const bool has_path = !body.path.empty();

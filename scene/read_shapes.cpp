@@ -80,9 +80,30 @@ std::optional<Mesh> read_mesh(const Node& node, const std::filesystem::path& fol
   Reader reader(node, "a mesh", diagnostics);
   const std::optional<std::string> file = required_file(reader, "file", folder);
   const double scale = reader.number("scale", 1, positive);
+  tell_placement_of_snow(reader);
   reader.finish();
   if (!file) return std::nullopt;
   return Mesh{*file, scale};
+}
+
+namespace {
+
+// Known from now on only where it is there, so that nobody is told it were valid.
+const Node* misplaced(Reader& reader, const char* key) { return reader.has(key) ? reader.find(key) : nullptr; }
+
+}  // namespace
+
+void tell_placement_of_snow(Reader& reader) {
+  for (const auto& [key, own] : {std::pair("translate", "position"), std::pair("rotate", "orientation")})
+    if (const Node* given = misplaced(reader, key))
+      reader.diagnostics().error(given->place,
+                                 fmt::format("'{}' places snow of a mesh; a body takes '{}', beside its shape", key, own));
+}
+
+void tell_keys_of_mesh(Reader& reader, const std::vector<const char*>& keys) {
+  for (const char* key : keys)
+    if (const Node* given = misplaced(reader, key))
+      reader.diagnostics().error(given->place, fmt::format("'{0}' belongs into the mesh: mesh: {{{0}: ...}}", key));
 }
 
 std::optional<SolidMesh> read_solid_mesh(const Node& node, const std::filesystem::path& folder, Diagnostics& diagnostics) {

@@ -57,6 +57,7 @@ std::optional<Snow> read_snow(const Node& node, const std::filesystem::path& fol
   snow.per_cell = static_cast<int>(reader.integer("per_cell", snow.per_cell, {1, 64}));
   snow.sampling =
       reader.choice("sampling", {"jittered", "poisson"}, "jittered") == "poisson" ? Sampling::poisson : Sampling::jittered;
+  if (kind && kind->name == "mesh") tell_keys_of_mesh(reader, {"file", "scale", "rotate", "translate"});
   reader.finish();
   if (kind && kind->name == "mesh")
     if (const Node* given = node.find("orientation"))

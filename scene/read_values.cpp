@@ -5,6 +5,7 @@
 #include <numbers>
 #include <system_error>
 
+#include "config/links.h"
 #include "config/nearest.h"
 #include "scene/read.h"
 
@@ -96,8 +97,9 @@ std::optional<std::string> required_file(Reader& reader, std::string_view key, c
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) {
-    reader.diagnostics().error(node->place,
-                               fmt::format("the file '{}' does not exist; names are relative to the scene file", file.string()));
+    const std::string circle = config::circle_hint(file);
+    reader.diagnostics().error(node->place, fmt::format("the file '{}' does not exist{}", file.string(),
+                                                        circle.empty() ? "; names are relative to the scene file" : circle));
     return std::nullopt;
   }
   if (!std::filesystem::is_regular_file(status)) {

@@ -89,6 +89,8 @@ TEST_CASE("links in a circle, folders, devices and nothing at all are no files, 
       check_refused(words_for(folder, use), name, "", 400000);
     }
   }
+  check_refused({"check", folder / "a", "-q"}, folder / "a", "there is no such file; its symbolic links go in a circle", 100000);
+  check_refused({"check", "mpm_snow", "--scene", folder / "a", "-q"}, folder / "a", "its symbolic links go in a circle", 100000);
   for (const std::string& name : {folder / "a", folder / "folder", folder / "none", std::string("/dev/null")}) {
     CAPTURE(name);
     check_refused({"run", "--from", name, "-q"}, name, "", 100000);

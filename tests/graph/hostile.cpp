@@ -28,10 +28,13 @@ TEST_CASE("names that no file system takes and circles of links name no file") {
     folder.write("p.yaml", "firn: 1\ninclude: " + name + "\nstep: [demo.fill]\n");
     const Lines messages = loaded(folder, "p.yaml").messages;
     CHECK(tells(messages, "p.yaml:2:10: error: no such file"));
+    CHECK(tells(messages, "; its symbolic links go in a circle") == (name == "circle.yaml"));
   }
   for (const std::string& name : {longest + ".comp", std::string("circle.comp")}) {
     folder.write("p.yaml", "firn: 1\nstep: [" + name + "]\n");
-    CHECK(tells(loaded(folder, "p.yaml").messages, "p.yaml:2:8: error: no such stage file"));
+    const Lines messages = loaded(folder, "p.yaml").messages;
+    CHECK(tells(messages, "p.yaml:2:8: error: no such stage file"));
+    CHECK(tells(messages, "; its symbolic links go in a circle") == (name == "circle.comp"));
   }
 }
 

@@ -255,6 +255,34 @@ TEST_CASE("Poisson particles keep their distance, are about as many as asked for
   CHECK(nearest < 1.05 * distance);
 }
 
+TEST_CASE("what places a mesh, written at another place, is told where it belongs") {
+  const TemporaryFolder folder;
+  folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  const auto said = [&](const std::string& more) {
+    const std::string start = "firn: 1\ndomain: {min: [-1, -1, -1], max: [2, 2, 2], cell: 0.1}\n";
+    const ReadResult result = read_text(start + more, folder / "scene.yaml");
+    CHECK(result.diagnostics.all().size() == 1);
+    return result.text();
+  };
+  const auto snow = [&](const std::string& more) {
+    return said("snow: [{mesh: {file: a.obj}, material: packed, " + more + "}]\n");
+  };
+  const std::string body = "snow: [{sphere: {center: [0, 0, 0], radius: 0.5}, material: packed}]\nbodies: ";
+  for (const std::string key : {"translate", "rotate", "scale"}) {
+    const std::string right = "'" + key + "' belongs into the mesh: mesh: {" + key + ": ...}";
+    CHECK(snow(key + ": [1, 0, 0]").find(right) != std::string::npos);
+    if (key == "scale") CHECK(said(body + "[{mesh: {file: a.obj}, scale: 2}]\n").find(right) != std::string::npos);
+  }
+  for (const auto& [key, own] : {std::pair("translate", "position"), std::pair("rotate", "orientation")})
+    for (const char* place : {"{mesh: {file: a.obj, $}}", "{mesh: {file: a.obj}, $}", "{sphere: {radius: 1}, $}"}) {
+      std::string text = place;
+      text.replace(text.find('$'), 1, std::string(key) + ": [1, 0, 0]");
+      CAPTURE(text);
+      const std::string right = std::string("'") + key + "' places snow of a mesh; a body takes '" + own + "', beside its shape";
+      CHECK(said(body + "[" + text + "]\n").find(right) != std::string::npos);
+    }
+}
+
 TEST_CASE("rotate, scale and translate place a mesh, and it must lie in the domain") {
   const TemporaryFolder folder;
   folder.write("mesh.obj", obj_of(torus(0.5, 0.1, 40, 16)));
