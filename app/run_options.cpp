@@ -37,6 +37,7 @@ json to_json(const RunOptions& options) {
               {"set", inputs.set},
               {"disable", inputs.disable},
               {"replace", inputs.replace},
+              {"export", inputs.exports},
               {"image", inputs.image},
               {"share_memory", inputs.share_memory},
               {"repeats", inputs.repeats},
@@ -61,6 +62,7 @@ RunOptions options_from(const json& values, const std::string& file) {
     values.at("set").get_to(inputs.set);
     values.at("disable").get_to(inputs.disable);
     values.at("replace").get_to(inputs.replace);
+    if (values.contains("export")) values.at("export").get_to(inputs.exports);  // runs of versions before have none
     values.at("image").get_to(inputs.image);
     values.at("share_memory").get_to(inputs.share_memory);
     values.at("repeats").get_to(inputs.repeats);

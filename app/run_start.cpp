@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "app/files.h"
 #include "app/json_text.h"
 #include "app/named_files.h"
@@ -41,9 +43,11 @@ fs::path as_seen_from_here(const fs::path& absolute) {
   return relative.empty() || relative.begin()->string() == ".." ? absolute : relative;
 }
 
-// What the command line says goes before what is kept; changes of the scene add up.
+// What the command line says goes before what is kept; changes of the scene, and exports, add up.
 void follow(const RunOptions& given, RunOptions& kept) {
   kept.inputs.set.insert(kept.inputs.set.end(), given.inputs.set.begin(), given.inputs.set.end());
+  for (const std::string& wish : given.inputs.exports)
+    if (std::ranges::find(kept.inputs.exports, wish) == kept.inputs.exports.end()) kept.inputs.exports.push_back(wish);
   if (given.steps || given.frames) {
     kept.steps = given.steps;
     kept.frames = given.frames;

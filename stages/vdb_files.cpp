@@ -4,13 +4,17 @@
 
 #ifdef FIRN_OPENVDB
 
+#include <fmt/format.h>
 #include <openvdb/io/Archive.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Filter.h>
 #include <openvdb/tools/Morphology.h>
 #include <openvdb/tools/VolumeToMesh.h>
 
+#include <cstdint>
 #include <sstream>
+
+#include "scene/repeatable.h"
 
 namespace firn::stages {
 namespace {
@@ -50,6 +54,18 @@ typename Grid::Ptr grid_of(const NodeField& field, const char* name) {
   return grid;
 }
 
+// OpenVDB gives every file a random name of its own (a UUID, right behind the versions). Equal contents are to make equal files.
+void name_by_contents(std::string& file) {
+  constexpr std::size_t start = 8 + 3 * 4 + 1, length = 36;
+  std::uint64_t parts[2] = {1, 2};
+  for (std::size_t i = start + length; i < file.size(); ++i)
+    for (std::uint64_t& part : parts) part = scene::mix(part ^ static_cast<unsigned char>(file[i]));
+  const std::string digits = fmt::format("{:016x}{:016x}", parts[0], parts[1]);
+  file.replace(start, length,
+               fmt::format("{}-{}-{}-{}-{}", digits.substr(0, 8), digits.substr(8, 4), digits.substr(12, 4), digits.substr(16, 4),
+                           digits.substr(20)));
+}
+
 }  // namespace
 
 bool has_openvdb() { return true; }
@@ -67,7 +83,9 @@ std::string vdb_of(const NodeField& field, double time) {
   archive.setCompression(openvdb::io::COMPRESS_ZIP | openvdb::io::COMPRESS_ACTIVE_MASK);
   std::ostringstream stream(std::ios::binary);
   archive.write(stream, openvdb::GridCPtrVec{density, velocity}, true, metadata);
-  return std::move(stream).str();
+  std::string file = std::move(stream).str();
+  name_by_contents(file);
+  return file;
 }
 
 scene::TriangleMesh surface_of(const NodeField& field, double level, int smoothing) {

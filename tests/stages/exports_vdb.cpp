@@ -52,4 +52,22 @@ TEST_CASE("a vdb file has both grids with their values where the nodes are") {
   }
 }
 
+TEST_CASE("equal fields make equal vdb files, others files of another name") {
+  const std::vector<float> position{0.3f, 1.0f, -0.7f}, velocity{1, 2, 3}, mass{0.5f};
+  const Eigen::Vector3d origin(-1.5, 0.25, -3.5);
+  const NodeField field = firn::stages::node_field(position, velocity, mass, origin, 0.1);
+  const std::string one = firn::stages::vdb_of(field, 0.75), again = firn::stages::vdb_of(field, 0.75),
+                    later = firn::stages::vdb_of(field, 0.76);
+  CHECK(one == again);
+  const firn::test::Folder folder;
+  const auto name_of = [&](const std::string& bytes) {
+    openvdb::initialize();
+    openvdb::io::File file(folder.write("grid.vdb", bytes).string());
+    file.open(false);
+    return file.getUniqueTag();
+  };
+  CHECK(name_of(one).size() == 36);
+  CHECK(name_of(one) != name_of(later));
+}
+
 #endif
