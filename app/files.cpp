@@ -20,6 +20,18 @@ namespace fs = std::filesystem;
   throw std::runtime_error(fmt::format("{}: {}", shown(path), text));
 }
 
+// The length of the UTF-8 character that `text` begins with; 0: it begins with none.
+std::size_t character(std::string_view text) {
+  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
+  const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : byte(0) >= 0xc2 ? 2 : 0;
+  if (length == 0 || length > text.size() || byte(0) > 0xf4) return 0;
+  for (std::size_t at = 1; at < length; ++at)
+    if ((byte(at) & 0xc0) != 0x80) return 0;
+  return length;
+}
+
+}  // namespace
+
 class Descriptor {
  public:
   Descriptor(const fs::path& path, int flags) : path_(path), number_(open(path.c_str(), flags | O_CLOEXEC, 0666)) {
@@ -37,6 +49,16 @@ class Descriptor {
       text.remove_prefix(static_cast<std::size_t>(written));
     }
   }
+  // All of it, at the end of the file, or nothing.
+  void append(std::string_view text) const {
+    const off_t before = lseek(number_, 0, SEEK_END);
+    try {
+      write(text);
+    } catch (...) {
+      if (before < 0 || ftruncate(number_, before) != 0) fail(path_, "ends in half a line, as it cannot be cut off either");
+      throw;
+    }
+  }
   void sync() const {
     // Some file systems have no fsync for folders.
     if (fsync(number_) != 0 && errno != EINVAL) fail(path_, fmt::format("cannot be written: {}", std::strerror(errno)));
@@ -49,18 +71,6 @@ class Descriptor {
   fs::path path_;
   int number_;
 };
-
-// The length of the UTF-8 character that `text` begins with; 0: it begins with none.
-std::size_t character(std::string_view text) {
-  const auto byte = [&](std::size_t at) { return static_cast<unsigned char>(text[at]); };
-  const std::size_t length = byte(0) < 0x80 ? 1 : byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : byte(0) >= 0xc2 ? 2 : 0;
-  if (length == 0 || length > text.size() || byte(0) > 0xf4) return 0;
-  for (std::size_t at = 1; at < length; ++at)
-    if ((byte(at) & 0xc0) != 0x80) return 0;
-  return length;
-}
-
-}  // namespace
 
 std::string shown(const fs::path& path) {
   const std::string text = path.string();
@@ -111,15 +121,24 @@ void make_durable(const fs::path& folder) { Descriptor(folder, O_RDONLY | O_DIRE
 void replace_file(const fs::path& file, std::string_view text) {
   fs::path part = file;
   part += ".part";
-  {
+  std::error_code error, ignored;
+  try {
     const Descriptor descriptor(part, O_WRONLY | O_CREAT | O_TRUNC);
     descriptor.write(text);
     descriptor.sync();
+  } catch (...) {
+    fs::remove(part, ignored);
+    throw;
   }
-  std::error_code error;
   fs::rename(part, file, error);
-  if (error) fail(file, fmt::format("cannot be written: {}", error.message()));
+  if (!error) return;
+  fs::remove(part, ignored);
+  fail(file, fmt::format("cannot be written: {}", error.message()));
 }
+
+LineFile::LineFile(const fs::path& file) : file_(std::make_unique<const Descriptor>(file, O_WRONLY | O_CREAT)) {}
+LineFile::~LineFile() = default;
+void LineFile::add(std::string_view line) { file_->append(line); }
 
 std::string now_in_utc() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
 

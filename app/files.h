@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -29,6 +30,23 @@ void make_durable(const std::filesystem::path& folder);
 
 // Beside it under another name, then renamed: `file` is whole, or as it was.
 void replace_file(const std::filesystem::path& file, std::string_view text);
+
+class Descriptor;  // an open file
+
+// A file that grows line by line: each is there as a whole, or not at all.
+class LineFile {
+ public:
+  explicit LineFile(const std::filesystem::path& file);  // goes on after what there is
+  ~LineFile();
+  LineFile(const LineFile&) = delete;
+  LineFile& operator=(const LineFile&) = delete;
+
+  // With its line break. Throws std::runtime_error naming the file, as where the disk is full.
+  void add(std::string_view line);
+
+ private:
+  std::unique_ptr<const Descriptor> file_;
+};
 
 // "2026-03-01T12:00:00Z"
 std::string now_in_utc();

@@ -8,7 +8,6 @@
 #include <limits>
 #include <sstream>
 
-#include "app/files.h"
 #include "app/sha256.h"
 
 namespace firn::app {
@@ -48,8 +47,7 @@ std::string lines_before(const fs::path& file, const std::string& header, std::u
 
 }  // namespace
 
-Metrics::Metrics(const fs::path& run, const Loaded& loaded, const graph::Clock& start)
-    : file_(run / "metrics.csv"), step_before_(start.step) {
+Metrics::Metrics(const fs::path& run, const Loaded& loaded, const graph::Clock& start) : step_before_(start.step) {
   using enum graph::ElementType;
   const graph::Plan& plan = loaded.plan;
   has_particles_ = has(plan, "position", vec3, "particles") && has(plan, "velocity", vec3, "particles") &&
@@ -61,10 +59,11 @@ Metrics::Metrics(const fs::path& run, const Loaded& loaded, const graph::Clock& 
   if (scene.field) cell_area_ = scene.field->size.x() / scene.field->cells_x * scene.field->size.y() / scene.field->cells_z;
   const std::string header = fmt::format("frame,step,time,dt{}{}{},steps_per_second", has_particles_ ? particle_columns : "",
                                          has_flow_ ? flow_columns : "", has_field_ ? field_columns : "");
-  std::string text = lines_before(file_, header, start.frame);
+  const fs::path file = run / "metrics.csv";
+  std::string text = lines_before(file, header, start.frame);
   if (text.empty()) text = header + "\n";
-  replace_file(file_, text);
-  stream_.open(file_, std::ios::app);
+  replace_file(file, text);
+  file_ = std::make_unique<LineFile>(file);
 }
 
 std::string Metrics::particles(const execution::Execution& execution) const {
@@ -122,11 +121,9 @@ void Metrics::add(execution::Execution& execution) {
   const graph::Clock& clock = execution.clock();
   const double passed = std::chrono::duration<double>(begin - time_before_).count();
   const double rate = passed > 0 ? static_cast<double>(clock.step - step_before_) / passed : 0;
-  stream_ << fmt::format("{},{},{:.12g},{:.9g}{}{}{},{:.6g}\n", clock.frame - 1, clock.step, clock.time, clock.dt,
+  file_->add(fmt::format("{},{},{:.12g},{:.9g}{}{}{},{:.6g}\n", clock.frame - 1, clock.step, clock.time, clock.dt,
                          has_particles_ ? particles(execution) : "", has_flow_ ? flow(execution) : "",
-                         has_field_ ? field(execution) : "", rate);
-  stream_.flush();
-  if (!stream_) throw std::runtime_error(fmt::format("cannot write {}; is the disk full?", shown(file_)));
+                         has_field_ ? field(execution) : "", rate));
   step_before_ = clock.step;
   time_before_ = std::chrono::steady_clock::now();
   seconds_ += std::chrono::duration<double>(time_before_ - begin).count();

@@ -5,8 +5,9 @@
 #include <array>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
+#include <memory>
 
+#include "app/files.h"
 #include "app/load.h"
 #include "graph/execution/execution.h"
 
@@ -18,7 +19,7 @@ class Metrics {
   // lie at or after the start's frame are dropped.
   Metrics(const std::filesystem::path& run, const Loaded& loaded, const graph::Clock& start);
 
-  // Adds a line about the frame that was just drawn. Waits for the device.
+  // Adds a line about the frame that was just drawn, or throws std::runtime_error. Waits for the device.
   void add(execution::Execution& execution);
   [[nodiscard]] double seconds() const { return seconds_; }  // that all lines took
 
@@ -27,8 +28,7 @@ class Metrics {
   [[nodiscard]] static std::string flow(const execution::Execution& execution);
   [[nodiscard]] std::string field(const execution::Execution& execution) const;
 
-  std::filesystem::path file_;
-  std::ofstream stream_;
+  std::unique_ptr<LineFile> file_;
   bool has_particles_ = false, has_flow_ = false, has_field_ = false;
   std::array<double, 3> gravity_{};
   double cell_area_ = 0;  // m2, of the field

@@ -106,13 +106,13 @@ class Session {
         spdlog::info("the state is in {}; to go on: firn run --resume {}", last_checkpoint_.string(), output_.string());
       return status;
     } catch (const execution::NumbersError& error) {
-      conclude(Status::numbers_broke, error.what());
+      conclude_failed(Status::numbers_broke, error.what());
       throw;
     } catch (const gpu::DeviceError& error) {
-      conclude(Status::device_lacks, error.what());
+      conclude_failed(Status::device_lacks, error.what());
       throw;
     } catch (const std::exception& error) {
-      conclude(Status::failed, error.what());
+      conclude_failed(Status::failed, error.what());
       throw;
     }
   }
@@ -184,6 +184,15 @@ class Session {
                        {"step", facts_.steps},
                        {"seconds", facts_.seconds},
                        {"seconds_for_metrics", metrics_.seconds()}});
+  }
+
+  // A disk that is full takes no manifest either; what went wrong first is told all the same.
+  void conclude_failed(int status, const std::string& message) {
+    try {
+      conclude(status, message);
+    } catch (const std::runtime_error& error) {
+      spdlog::error("{}", error.what());
+    }
   }
 
   const RunStart& start_;

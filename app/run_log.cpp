@@ -7,6 +7,8 @@
 
 #include <fstream>
 #include <mutex>
+#include <stdexcept>
+#include <utility>
 
 #include "app/files.h"
 
@@ -33,33 +35,39 @@ void cut_after_last_line(const fs::path& file) {
 
 }  // namespace
 
+// Others that log are not to fail for this file: what it does not take is told by the next event, or at the end.
 class RunLog::Sink final : public spdlog::sinks::base_sink<std::mutex> {
  public:
-  explicit Sink(const fs::path& file) : stream_(file, std::ios::app) {
-    if (!stream_) throw std::runtime_error(fmt::format("cannot write {}", shown(file)));
-  }
+  explicit Sink(const fs::path& file) : file_(file) {}
 
   void write(const ordered_json& line) {
     const std::lock_guard hold(mutex_);
+    if (!error_.empty()) throw std::runtime_error(std::exchange(error_, ""));
     put(line);
+  }
+  void tell() const {
+    if (!error_.empty()) spdlog::error("{}", error_);
   }
 
  protected:
   void sink_it_(const spdlog::details::log_msg& message) override {
     const auto level = spdlog::level::to_string_view(message.level);
-    put({{"time", in_utc(message.time)},
-         {"event", "message"},
-         {"level", std::string(level.data(), level.size())},
-         {"text", std::string(message.payload.data(), message.payload.size())}});
+    try {
+      put({{"time", in_utc(message.time)},
+           {"event", "message"},
+           {"level", std::string(level.data(), level.size())},
+           {"text", std::string(message.payload.data(), message.payload.size())}});
+    } catch (const std::runtime_error& error) {
+      error_ = error.what();
+    }
   }
-  void flush_() override { stream_.flush(); }
+  void flush_() override {}
 
  private:
-  void put(const ordered_json& line) {
-    stream_ << line.dump(-1, ' ', false, ordered_json::error_handler_t::replace) << '\n';
-    stream_.flush();
-  }
-  std::ofstream stream_;
+  void put(const ordered_json& line) { file_.add(line.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n"); }
+
+  LineFile file_;
+  std::string error_;  // that nobody was told
 };
 
 RunLog::RunLog(const fs::path& run) {
@@ -69,7 +77,10 @@ RunLog::RunLog(const fs::path& run) {
   spdlog::default_logger()->sinks().push_back(sink_);
 }
 
-RunLog::~RunLog() { std::erase(spdlog::default_logger()->sinks(), sink_); }
+RunLog::~RunLog() {
+  std::erase(spdlog::default_logger()->sinks(), sink_);
+  sink_->tell();
+}
 
 void RunLog::event(const std::string& name, const nlohmann::json& facts) {
   ordered_json line{{"time", in_utc(std::chrono::system_clock::now())}, {"event", name}};

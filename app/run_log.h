@@ -18,7 +18,7 @@ class RunLog {
   RunLog(const RunLog&) = delete;
   RunLog& operator=(const RunLog&) = delete;
 
-  // {"time", "event", ...facts}
+  // {"time", "event", ...facts}. Throws std::runtime_error where this, or a message since the last event, cannot be written.
   void event(const std::string& name, const nlohmann::json& facts = nlohmann::json::object());
 
  private:

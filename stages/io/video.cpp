@@ -126,6 +126,7 @@ class Video final : public graph::HostStage {
                                        "-loglevel",
                                        "warning",
                                        "-nostats",
+                                       "-xerror",  // else a film that a full disk has cut off counts as done
                                        "-y",
                                        "-f",
                                        "rawvideo",
@@ -178,13 +179,16 @@ class Video final : public graph::HostStage {
     std::ofstream names(list);
     for (const fs::path& each : parts_) names << "file " << each.filename().string() << '\n';
     names.close();
-    if (!names) throw std::runtime_error(fmt::format("cannot write {}", list.string()));
+    std::error_code error;
+    if (!names) {
+      fs::remove(list, error);
+      throw std::runtime_error(fmt::format("cannot write {}", list.string()));
+    }
     encoder_.emplace(ffmpeg,
-                     std::vector<std::string>{"-hide_banner", "-loglevel", "warning", "-nostats", "-y", "-f", "concat", "-i",
-                                              list.string(), "-c", "copy", "-movflags", "+faststart", part().string()},
+                     std::vector<std::string>{"-hide_banner", "-loglevel", "warning", "-nostats", "-xerror", "-y", "-f", "concat",
+                                              "-i", list.string(), "-c", "copy", "-movflags", "+faststart", part().string()},
                      "", log());
     end_encoder();
-    std::error_code error;
     fs::remove(list, error);
   }
 

@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 #include <png.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -14,6 +12,7 @@
 
 #include "stages/process.h"
 #include "tests/catch.h"
+#include "tests/small_disk.h"
 #include "tests/stages/render_shot.h"
 
 using namespace firn::test;
@@ -58,26 +57,6 @@ std::string complaint(Work work) {
   }
   return "no error";
 }
-
-// Files cannot grow beyond this while it lives: as on a disk that is full.
-class SmallDisk {
- public:
-  explicit SmallDisk(rlim_t bytes) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit small{bytes, before_.rlim_max};
-    std::signal(SIGXFSZ, SIG_IGN);
-    setrlimit(RLIMIT_FSIZE, &small);
-  }
-  ~SmallDisk() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, SIG_DFL);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-
- private:
-  rlimit before_{};
-};
 
 // PATH with another value while it lives.
 class Path {
