@@ -101,8 +101,9 @@ void Series::add(std::uint64_t frame, double time) {
   std::string collection = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n  <Collection>\n";
   for (const auto& [number, seconds] : times_) {
     const std::string name = file(number).filename().string();
-    series += fmt::format("{}{}\", \"time\" : {} }}{}\n", entry_start, name, seconds, number == times_.rbegin()->first ? "" : ",");
-    collection += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", seconds, name);
+    series +=
+        fmt::format("{}{}\", \"time\" : {:.12g} }}{}\n", entry_start, name, seconds, number == times_.rbegin()->first ? "" : ",");
+    collection += fmt::format("    <DataSet timestep=\"{:.12g}\" part=\"0\" file=\"{}\"/>\n", seconds, name);
   }
   write_file(folder_ / fmt::format("{}.{}.series", stem_, extension_), series + "  ]\n}\n");
   write_file(folder_ / fmt::format("{}.pvd", stem_), collection + "  </Collection>\n</VTKFile>\n");

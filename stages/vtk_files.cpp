@@ -63,7 +63,7 @@ std::string start(const std::string& type, const std::string& geometry, double t
   return fmt::format(
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"{0}\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt32\" "
       "compressor=\"vtkZLibDataCompressor\">\n<{0}{1}>\n<FieldData>\n<DataArray type=\"Float64\" Name=\"TimeValue\" "
-      "NumberOfTuples=\"1\" format=\"ascii\">{2}</DataArray>\n</FieldData>\n",
+      "NumberOfTuples=\"1\" format=\"ascii\">{2:.12g}</DataArray>\n</FieldData>\n",
       type, geometry, time);
 }
 

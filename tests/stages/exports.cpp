@@ -1,15 +1,14 @@
 // Every exported file gives back the numbers that were on the device.
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <cmath>
-#include <csignal>
 #include <numeric>
 
 #include "scene/image.h"
 #include "stages/vdb_files.h"
 #include "tests/catch.h"
+#include "tests/small_disk.h"
 #include "tests/stages/export_readers.h"
 #include "tests/stages/render_shot.h"
 
@@ -129,6 +128,18 @@ TEST_CASE("the lists of a series name each file with its time, and forget what a
         "    { \"name\" : \"particles_0001.vtp\", \"time\" : 0.125 }\n  ]\n}\n");
   CHECK(bytes_of(folder.path() / "export" / "particles.pvd").find("timestep=\"0.125\" part=\"0\" file=\"particles_0001.vtp\"") !=
         std::string::npos);
+}
+
+TEST_CASE("times of a series are as short as twelve digits allow") {
+  Folder folder;
+  Shot shot(SceneText{}, "[io.particles]", small_image, folder.path().string());
+  shot.execution().clock().time = 7000 * 1e-4;  // 0.7000000000000001
+  shot.frame();
+  shot.execution().finish();
+  const fs::path exports = folder.path() / "export";
+  CHECK(bytes_of(exports / "particles.pvd").find("timestep=\"0.7\"") != std::string::npos);
+  CHECK(bytes_of(exports / "particles.vtp.series").find("\"time\" : 0.7 }") != std::string::npos);
+  CHECK(bytes_of(exports / "particles_0000.vtp").find(">0.7</DataArray>") != std::string::npos);
 }
 
 TEST_CASE("a series that goes on from a later frame keeps what was before, with its times") {
@@ -326,19 +337,13 @@ TEST_CASE("a full disk while exporting is an error that names the file, and leav
   Strained shot("[render.background, io.particles]", folder.path());
   std::string said = "no error";
   {
-    rlimit before{};
-    getrlimit(RLIMIT_FSIZE, &before);
-    const rlimit small{1000, before.rlim_max};
-    std::signal(SIGXFSZ, SIG_IGN);
-    setrlimit(RLIMIT_FSIZE, &small);
+    const SmallDisk disk(1000);
     try {
       shot.frame();
       shot.execution().finish();
     } catch (const std::runtime_error& error) {
       said = error.what();
     }
-    setrlimit(RLIMIT_FSIZE, &before);
-    std::signal(SIGXFSZ, SIG_DFL);
   }
   INFO(said);
   CHECK(said.find((folder.path() / "export" / "particles_0000.vtp").string()) != std::string::npos);
