@@ -65,7 +65,8 @@ int bench(BenchOptions options) {
   }
   if (bench.results().empty() && bench.impossible().empty()) {
     const std::string& name = options.wanted.only;
-    fmt::print(stderr, "no benchmark '{}'{}\n", name, config::suggestion(name, bench.asked()));
+    fmt::print(stderr, "firn bench: no benchmark '{}'{}\nfirn bench --help tells what there is\n", name,
+               config::suggestion(name, bench.asked()));
     return Status::bad_input;
   }
   if (options.json) fmt::print("{}\n", as_json(bench).dump(2));

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <fstream>
+#include <stdexcept>
+
 #include "app/choice.h"
 #include "app/device_profile.h"
 #include "app/files.h"
@@ -32,7 +35,11 @@ int profile(const ProfileOptions& options) {
     diagnostics.error({loaded.pipeline_file, 0, 0}, "nothing to time: it has no stages in 'step'");
     config::throw_if_errors(diagnostics);
   }
+  // Before anything is timed, which may take long.
+  if (!options.output.empty() && !std::ofstream(options.output, std::ios::app))
+    throw std::runtime_error(fmt::format("cannot write {}", options.output));
   const std::unique_ptr<gpu::Device> device = gpu::Device::open(options.device);
+  spdlog::info("measuring the device, then timing {} steps after {}", options.request.steps, options.request.warm_up);
   plan_for(loaded, options.inputs, profile_of(*device));
   const Profile profile = run_profile(loaded, *device, options.request);
   const std::string text = report(profile, options.format);

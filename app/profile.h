@@ -8,28 +8,24 @@
 #include <vector>
 
 #include "app/load.h"
+#include "app/profile_bytes.h"
 #include "app/speed.h"
-#include "graph/execution/execution.h"
 
 namespace firn::app {
 
-// One buffer as one launch touches it: as if every element were read or written once. Kernels that skip some do with less, those
-// that come back to some need more.
-struct Traffic {
-  std::string buffer, access, usage;
-  double read = 0, written = 0;  // bytes
-};
-
 struct ProfiledPass {
   std::string stage, doc, equation, work;
-  std::string elements;         // what a launch works on, in words: "over nodes, 1000000", "over 31 groups of 64, read back once"
+  std::string elements;         // what a launch works on, in words: "over nodes, 1000000", "over 31.5 groups of 64 on average"
   std::vector<double> seconds;  // one per launch
   std::vector<Traffic> traffic;
-  bool host = false;                      // on the processor: nothing to be said of bytes
   std::optional<double> operations = {};  // additions and multiplications of a launch; none: its stage does not tell
+  std::optional<double> groups = {};      // work groups of a launch, on average; none: it is no dispatch
+  bool host = false;                      // on the processor: nothing to be said of bytes
+  std::string left_out = {};              // why it is never launched: "there are no bodies"; empty: it is
 
   [[nodiscard]] double total() const;
   [[nodiscard]] double bytes() const;
+  [[nodiscard]] bool bytes_at_most() const;       // some of them may not be touched, and weigh more than a tenth
   [[nodiscard]] double bytes_per_second() const;  // of the median launch
   [[nodiscard]] std::optional<double> operations_per_second() const;
 };
@@ -40,22 +36,33 @@ struct ProfiledLaunch {
   double start = 0, seconds = 0;  // s since the first launch
 };
 
+// What holds a pass back.
+struct Holder {
+  std::string name;      // "bandwidth"
+  std::string sentence;  // "it moves bytes at 83 % of the rate at which the device copies"
+};
+
 struct Profile {
   std::string pipeline, scene, device, clock;  // clock: which one the times are by, in words
   std::uint64_t steps = 0;
   double wall = 0;             // s per step, with everything between passes
   std::optional<double> cost;  // how much longer a step takes because it is timed: 0.01 is 1 %
   Speed speed;                 // of the device
+  int units = 0;               // that work on groups at once; 0: not known
   std::vector<ProfiledPass> passes;
   std::vector<ProfiledLaunch> launches;
 
   [[nodiscard]] double total() const;  // s, of all launches
   [[nodiscard]] double share_of_copy(const ProfiledPass& pass) const;
   [[nodiscard]] std::optional<double> share_of_arithmetic(const ProfiledPass& pass) const;
-  // "launching": no longer than two launches of an empty kernel; "bytes": 0.6 to 1.1 of the device's bandwidth; "arithmetic": at
-  // least 0.6 of its arithmetic rate; "unclear": more than all of the bandwidth, so that caches hold what it works on, or not all
-  // of it is touched; "its own work": atomics, waiting, bytes read more than once, invocations without work; "the processor".
-  [[nodiscard]] std::string held_back_by(const ProfiledPass& pass) const;
+  // The nearer of the two: no pass can be done in less than this share of its time, unless caches hold what it works on. None on
+  // the processor, and where it is never launched.
+  struct Bound {
+    double share = 0;
+    bool by_bytes = true, at_most = false;
+  };
+  [[nodiscard]] std::optional<Bound> bound(const ProfiledPass& pass) const;
+  [[nodiscard]] Holder held_back_by(const ProfiledPass& pass) const;
 };
 
 struct ProfileRequest {

@@ -43,7 +43,9 @@ td:first-child { white-space: nowrap; }
 <p class="pale">Click a step to see it below; hover a bar for its pass.</p>
 <h2 id="step-title"></h2><svg id="step"></svg>
 <h2>Passes</h2><div class="scroll"><table id="passes"><thead><tr></tr></thead><tbody></tbody></table></div>
-<p class="pale">Bytes as if every element were read or written once; beyond 100 % of copy, caches hold them or some are left out. Click a column to sort, a pass for more.</p>
+<p class="pale">Bytes: every element that a launch works on, read or written once. Of bound: the time that these bytes would take at the
+device's rate of copying, or the formulas' additions and multiplications (maths) at its rate of arithmetic, whichever is longer, by the median;
+beyond 100 % caches help; &le; where only the kernel knows which elements it touches. Click a column to sort, a pass for more.</p>
 <div id="details"></div><div id="tip"></div>
 <script type="application/json" id="data">)";
 
@@ -61,7 +63,10 @@ std::string as_page(const Profile& profile) {
   nlohmann::json passes = nlohmann::json::array(), launches = nlohmann::json::array();
   for (const ProfiledPass& pass : profile.passes) {
     nlohmann::json traffic = nlohmann::json::array();
-    for (const Traffic& one : pass.traffic) traffic.push_back({one.buffer, one.access, one.usage, one.read, one.written});
+    for (const Traffic& one : pass.traffic)
+      traffic.push_back({one.buffer, one.access, one.usage, one.read, one.written, one.at_most});
+    const std::optional<Profile::Bound> bound = profile.bound(pass);
+    const Holder holder = profile.held_back_by(pass);
     passes.push_back({{"stage", pass.stage},
                       {"work", pass.work},
                       {"doc", pass.doc},
@@ -75,7 +80,12 @@ std::string as_page(const Profile& profile) {
                       {"bytes", pass.bytes()},
                       {"rate", pass.bytes_per_second()},
                       {"maths", profile.share_of_arithmetic(pass).value_or(-1)},
-                      {"held", profile.held_back_by(pass)},
+                      {"bound", bound ? bound->share : -1},
+                      {"by", bound && !bound->by_bytes ? "maths" : "bytes"},
+                      {"at_most", bound && bound->at_most},
+                      {"left_out", pass.left_out},
+                      {"held", holder.name},
+                      {"why", holder.sentence},
                       {"traffic", traffic}});
   }
   // Whole steps only.

@@ -13,31 +13,42 @@ double share_of_time(const Profile& profile, const ProfiledPass& pass) {
   return total > 0 ? pass.total() / total : 0;
 }
 
+// "<= 12.3 % bytes"
+std::string in_words(const Profile::Bound& bound) {
+  return fmt::format("{}{:.1f} % {}", bound.at_most ? "<= " : "", 100 * bound.share, bound.by_bytes ? "bytes" : "maths");
+}
+
 }  // namespace
 
 std::string as_table(const Profile& profile) {
   std::string text = fmt::format("{} on {}, {}\n\n", profile.pipeline, profile.scene, profile.device);
-  text += fmt::format("{:<28} {:<34} {:>8} {:>10} {:>10} {:>7} {:>9} {:>8} {:>7} {:>9}  {}\n", "stage", "work", "per step",
-                      "median us", "p90 us", "share", "MB", "GB/s", "of copy", "of maths", "held back by");
+  std::size_t longest = 0;
+  for (const ProfiledPass& pass : profile.passes) longest = std::max(longest, pass.stage.size());
+  text += fmt::format("{:<{}} {:<36} {:>8} {:>10} {:>10} {:>7} {:>9} {:>8} {:>17}  {}\n", "stage", longest, "work", "per step",
+                      "median us", "p90 us", "share", "MB", "GB/s", "of nearer bound", "held back by");
+  std::string sentences;
   for (const ProfiledPass& pass : profile.passes) {
     const double launches = static_cast<double>(pass.seconds.size()) / static_cast<double>(profile.steps);
-    const std::string bytes = pass.host ? fmt::format("{:>9} {:>8} {:>7}", "-", "-", "-")
-                                        : fmt::format("{:>9.3f} {:>8.2f} {:>6.1f}%", 1e-6 * pass.bytes(),
-                                                      1e-9 * pass.bytes_per_second(), 100 * profile.share_of_copy(pass));
-    const std::optional<double> arithmetic = profile.share_of_arithmetic(pass);
-    text += fmt::format("{:<28} {:<34} {:>8.2f} {:>10.1f} {:>10.1f} {:>6.1f}% {} {:>9}  {}\n", pass.stage, pass.work, launches,
-                        1e6 * median(pass.seconds), 1e6 * quantile(pass.seconds, 0.9), 100 * share_of_time(profile, pass), bytes,
-                        arithmetic ? fmt::format("{:.1f}%", 100 * *arithmetic) : "-", profile.held_back_by(pass));
+    const std::optional<Profile::Bound> bound = profile.bound(pass);
+    const std::string bytes = bound ? fmt::format("{:>9.3f} {:>8.2f}", 1e-6 * pass.bytes(), 1e-9 * pass.bytes_per_second())
+                                    : fmt::format("{:>9} {:>8}", "-", "-");
+    const Holder holder = profile.held_back_by(pass);
+    text += fmt::format("{:<{}} {:<36} {:>8.2f} {:>10.1f} {:>10.1f} {:>6.1f}% {} {:>17}  {}\n", pass.stage, longest, pass.work,
+                        launches, 1e6 * median(pass.seconds), 1e6 * quantile(pass.seconds, 0.9), 100 * share_of_time(profile, pass),
+                        bytes, bound ? in_words(*bound) : "-", holder.name);
+    sentences += fmt::format("{} {}: {}\n", pass.stage, pass.work, holder.sentence);
   }
   const double steps = static_cast<double>(profile.steps);
   text += fmt::format("\n{} steps: {:.3f} ms a step in passes, {:.3f} ms by the clock on the wall\n", profile.steps,
                       1e3 * profile.total() / steps, 1e3 * profile.wall);
   if (profile.cost)
     text += fmt::format("timing makes a step {:.1f} % longer (medians of blocks of steps in turn)\n", 100 * *profile.cost);
-  text += fmt::format("times by {}\n", profile.clock);
+  text += fmt::format("times by {}\n\nWhat holds each back\n{}\n", profile.clock, sentences);
   text += fmt::format(
-      "MB: as if every element were read or written once; beyond all of copy, caches hold them or some are left out\n"
-      "of maths: additions and multiplications of the formulas, as stages tell them, by what the device does in a second\n"
+      "MB: every element that a launch works on read or written once, however often it comes back to it\n"
+      "of nearer bound: the time that these bytes would take at the device's rate of copying, or the formulas' additions and\n"
+      "  multiplications (maths) at its rate of arithmetic, whichever is longer, by the median; beyond 100 % caches help;\n"
+      "  <=: which elements of some buffers are touched only the kernel knows\n"
       "the device copies {}, multiplies and adds {}, and needs {:.2f} us from launch to launch\n",
       in_words(profile.speed.bandwidth(), "B"), in_words(profile.speed.multiply_add, "FLOP"), 1e6 * profile.speed.launch);
   return text;
@@ -49,11 +60,16 @@ json as_json(const Profile& profile) {
     json buffers = json::array();
     double read = 0, written = 0;
     for (const Traffic& one : pass.traffic) {
-      buffers.push_back(
-          {{"buffer", one.buffer}, {"access", one.access}, {"usage", one.usage}, {"read", one.read}, {"written", one.written}});
+      buffers.push_back({{"buffer", one.buffer},
+                         {"access", one.access},
+                         {"usage", one.usage},
+                         {"read", one.read},
+                         {"written", one.written},
+                         {"at_most", one.at_most}});
       read += one.read;
       written += one.written;
     }
+    const Holder holder = profile.held_back_by(pass);
     json entry = {{"stage", pass.stage},
                   {"work", pass.work},
                   {"elements", pass.elements},
@@ -62,12 +78,18 @@ json as_json(const Profile& profile) {
                   {"p90", quantile(pass.seconds, 0.9)},
                   {"total", pass.total()},
                   {"share", share_of_time(profile, pass)},
-                  {"held_back_by", profile.held_back_by(pass)}};
-    if (!pass.host)
+                  {"held_back_by", holder.name},
+                  {"reason", holder.sentence}};
+    if (!pass.left_out.empty()) entry["left_out"] = pass.left_out;
+    if (pass.groups) entry["groups"] = *pass.groups;
+    if (const std::optional<Profile::Bound> bound = profile.bound(pass))
       entry.update({{"bytes_read", read},
                     {"bytes_written", written},
                     {"bytes_per_second", pass.bytes_per_second()},
                     {"share_of_copy", profile.share_of_copy(pass)},
+                    {"share_of_bound", bound->share},
+                    {"bound", bound->by_bytes ? "bytes" : "arithmetic"},
+                    {"bytes_at_most", pass.bytes_at_most()},
                     {"buffers", buffers}});
     if (pass.operations)
       entry.update({{"operations", *pass.operations},

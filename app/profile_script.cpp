@@ -28,6 +28,8 @@ const size = bytes => bytes >= 1e9 ? (1e-9 * bytes).toFixed(2) + ' GB' : bytes >
 const rate = value => value >= 1e12 ? (1e-12 * value).toFixed(2) + ' TB/s' : (1e-9 * value).toFixed(2) + ' GB/s';
 const percent = share => (100 * share).toFixed(1) + ' %';
 const of_copy = pass => data.speed.copy > 0 ? pass.rate / data.speed.copy : 0;
+const of_bound = pass => `${pass.at_most ? '\u2264 ' : ''}${percent(pass.bound)} ${pass.by}`;
+const known = pass => pass.bound >= 0;  // its bytes
 // "mpm/sort_count.comp" is sort_count; where that says no more than the stage's own name, the stage alone.
 const short = pass => pass.work.replace(/^.*\//, '').replace(/\.comp$/, '');
 const name_of = pass => pass.stage.replace(/#.*/, '').endsWith('.' + short(pass)) ? pass.stage : pass.stage + ' \u00b7 ' + short(pass);
@@ -147,10 +149,9 @@ const columns = [
   ['per step', pass => pass.launches / data.steps, value => value.toFixed(2), true],
   ['median', pass => pass.median, time, true], ['p90', pass => pass.p90, time, true],
   ['share', pass => pass.total / data.total, percent, true],
-  ['bytes', pass => pass.host ? -1 : pass.bytes, value => value < 0 ? '\u2013' : size(value), true],
-  ['bandwidth', pass => pass.host ? -1 : pass.rate, value => value < 0 ? '\u2013' : rate(value), true],
-  ['of copy', pass => pass.host ? -1 : of_copy(pass), value => value < 0 ? '\u2013' : percent(value), true],
-  ['of maths', pass => pass.maths, value => value < 0 ? '\u2013' : percent(value), true],
+  ['bytes', pass => known(pass) ? pass.bytes : -1, value => value < 0 ? '\u2013' : size(value), true],
+  ['bandwidth', pass => known(pass) ? pass.rate : -1, value => value < 0 ? '\u2013' : rate(value), true],
+  ['of bound', pass => pass.bound, (value, pass) => value < 0 ? '\u2013' : of_bound(pass), true],
   ['held back by', pass => pass.held, value => value, false]];
 let sorted_by = -1, falling = true;
 const draw_table = () => {
@@ -174,13 +175,13 @@ const draw_table = () => {
     const pass = data.passes[i], row = text('tr', '', i === chosen ? 'chosen' : '');
     row.dataset.pass = i;
     columns.forEach(([name, value, show, number], column) => {
-      const cell = text('td', show(value(pass)), number ? 'n' : '');
+      const cell = text('td', show(value(pass), pass), number ? 'n' : '');
       if (column === 0) {
         const swatch = text('span', '', 'swatch');
         swatch.style.background = colors[i];
         cell.prepend(swatch);
       }
-      if (name === 'share' || name === 'of copy' && !pass.host || name === 'of maths' && pass.maths >= 0) {
+      if (name === 'share' || name === 'of bound' && known(pass)) {
         const meter = text('span', '', 'meter'), fill = text('i', '');
         fill.style.width = Math.min(100, 100 * value(pass)) + '%';
         meter.append(fill);
@@ -195,20 +196,20 @@ const draw_table = () => {
 };
 
 // --- details of one pass
-const meanings = {
-  'bytes': 'it moves bytes nearly as fast as the device can',
-  'unclear': 'more bytes a second than the device can copy: caches hold them, or not every element is touched',
-  'launching': 'it takes hardly longer than an empty kernel: there is too little to do',
-  'arithmetic': 'it adds and multiplies nearly as fast as the device can',
-  'its own work': 'neither bytes nor arithmetic nor launching explain its time: atomics, waiting for memory, bytes read again, or invocations without work',
-  'the processor': 'it runs on the processor'};
 const draw_details = () => {
   const box = node('details'), pass = data.passes[chosen];
   box.textContent = '';
   box.append(text('h3', name_of(pass)), text('p', pass.doc + (pass.equation ? '  ' + pass.equation : '')));
+  if (pass.left_out) {
+    box.append(text('p', `Left out: ${pass.left_out}.`));
+    return;
+  }
   box.append(text('p', `${pass.launches} launches in ${data.steps} steps, ${pass.elements}. Median ${time(pass.median)}, nine of ten ` +
                        `below ${time(pass.p90)}, ${percent(pass.total / data.total)} of the time of a step.`));
-  box.append(text('p', `Held back by ${pass.held}: ${meanings[pass.held]}.`));
+  box.append(text('p', `Held back by ${pass.held}: ${pass.why}.`));
+  if (known(pass))
+    box.append(text('p', `Of the device's rate of copying: ${pass.at_most ? 'at most ' : ''}${percent(of_copy(pass))}` +
+                         (pass.maths >= 0 ? `; of its rate of arithmetic: ${percent(pass.maths)}` : '') + '.'));
   const picture = svg(box, 'svg', {height: 90, id: 'history'}), width = picture.clientWidth || 1180;
   picture.setAttribute('viewBox', `0 0 ${width} 90`);
   const times = data.launches.filter(launch => launch[0] === chosen).map(launch => launch[3]);
@@ -225,9 +226,10 @@ const draw_details = () => {
   for (const [name, number] of [['buffer', 0], ['access', 0], ['usage', 0], ['read', 1], ['written', 1]])
     head.append(text('th', name, number ? 'n' : ''));
   table.append(head);
-  for (const [buffer, access, usage, read, written] of pass.traffic) {
+  for (const [buffer, access, usage, read, written, at_most] of pass.traffic) {
+    const most = bytes => (at_most && bytes > 0 ? '\u2264 ' : '') + size(bytes);
     const row = text('tr', '');
-    row.append(text('td', buffer), text('td', access), text('td', usage), text('td', size(read), 'n'), text('td', size(written), 'n'));
+    row.append(text('td', buffer), text('td', access), text('td', usage), text('td', most(read), 'n'), text('td', most(written), 'n'));
     table.append(row);
   }
   box.append(table);

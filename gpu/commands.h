@@ -57,6 +57,9 @@ struct DrawState {
 };
 // No vertex attributes: vertex shaders fetch from buffers by gl_VertexID and gl_InstanceID.
 void draw(const Framebuffer& target, const DrawState& state, std::uint32_t vertices, std::uint32_t instances);
+// Draws the least there is, one primitive, and keeps all of it out of the target: only so that a driver which makes machine code at
+// the first draw makes it now. Vertex shaders run.
+void rehearse_draw(const Framebuffer& target, const DrawState& state);
 // An integer attachment takes the values as integers.
 void clear_color(const Framebuffer& target, int attachment, float r, float g, float b, float a);
 void clear_depth(const Framebuffer& target, float depth);

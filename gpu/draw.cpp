@@ -133,6 +133,14 @@ void draw(const Framebuffer& target, const DrawState& state, std::uint32_t verti
   context.check_quickly();
 }
 
+void rehearse_draw(const Framebuffer& target, const DrawState& state) {
+  const auto vertices = state.topology == Topology::patches ? static_cast<std::uint32_t>(state.patch_vertices) : 3u;
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(0, 0, 0, 0);
+  draw(target, state, vertices, 1);
+  glDisable(GL_SCISSOR_TEST);
+}
+
 void clear_color(const Framebuffer& target, int attachment, float r, float g, float b, float a) {
   const std::span<const TexelFormat> formats = target.color_formats();
   if (attachment < 0 || attachment >= static_cast<int>(formats.size())) {

@@ -38,6 +38,7 @@ class HostContext {
   [[nodiscard]] virtual PortView view(std::string_view port) const = 0;
   [[nodiscard]] virtual bool bound(std::string_view port) const = 0;
   virtual std::vector<std::byte> read(std::string_view port) = 0;                  // stride(type) bytes per element
+  virtual void read_into(std::string_view port, std::span<std::byte> data) = 0;    // the same, into memory that is there
   virtual void write(std::string_view port, std::span<const std::byte> data) = 0;  // the whole buffer
   [[nodiscard]] virtual const Clock& clock() const = 0;
   virtual void set_time_step(double dt) = 0;  // only for specs with sets_time_step

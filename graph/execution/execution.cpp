@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstring>
 #include <functional>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "graph/execution/host_context.h"
 #include "graph/execution/kernels.h"
@@ -66,6 +66,7 @@ struct Execution::Parts {
   std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
   double ring_made = 0;  // s since `begin`
   std::vector<PassTime> clock_times;
+  std::optional<std::vector<PassGroups>> counted;  // none: groups are not counted now
   struct Turns {
     std::uint64_t rounds = 0, turns = 0;
   };
@@ -97,7 +98,7 @@ struct Execution::Parts {
       cache.emplace(options.program_cache, [](const std::string& what) { spdlog::debug("cache of programs: {}", what); });
     make_programs(plan, kernels, device, options.shader_folders, cache ? &*cache : nullptr, [this](int s, int w) {
       const auto stage = static_cast<std::size_t>(s);
-      bind_kernel(plan.stages[stage], kernels[stage][static_cast<std::size_t>(w)], memory, blocks(stage));
+      rehearse_kernel(plan.stages[stage], w, kernels[stage][static_cast<std::size_t>(w)], memory, blocks(stage));
     });
     time_passes(options.profile);
   }
@@ -172,6 +173,16 @@ struct Execution::Parts {
   }
 
   void work(const graph::Run& run, std::uint64_t turn);
+
+  void note_groups(const graph::Run& run) {
+    for (const graph::BufferAccess& access : run.accesses) {
+      if (access.usage != graph::Usage::indirect) continue;
+      std::array<std::uint32_t, 3> groups{};
+      gpu::memory_barrier(graph::bit_buffer_update);
+      memory.buffer(access.buffer).download(0, std::as_writable_bytes(std::span(groups)));
+      counted->push_back({run.stage, run.work, std::uint64_t{groups[0]} * groups[1] * groups[2]});
+    }
+  }
 };
 
 void Execution::Parts::work(const graph::Run& run, std::uint64_t turn) {
@@ -180,21 +191,23 @@ void Execution::Parts::work(const graph::Run& run, std::uint64_t turn) {
   if (turn % static_cast<std::uint64_t>(stage.every) != 0) return;
   device.label(stage.label.c_str());
   if (std::holds_alternative<graph::HostWork>(stage.spec.work[static_cast<std::size_t>(run.work)])) {
-    const double before = clock.dt;
+    const double before = clock.dt, start = now();
     PlanContext context(stage, plan, memory, sizes, clock);
-    const double start = now();
     host[s]->run(context);
     if (timing) clock_times.push_back({run.stage, run.work, clock.step, start, now() - start});
     if (clock.dt != before) upload_clock();
     return;
   }
+  const Kernel& kernel = kernels[s][static_cast<std::size_t>(run.work)];
+  if (kernel.idle) return;
+  if (counted) note_groups(run);
   // A software renderer's timestamps say nothing of draws, which it does later, nor of what comes between: there the processor's
   // clock.
   const bool by_clock = timing && !timers;
   if (by_clock) device.finish();
   const double start = timing ? now() : 0;
   if (timing && timers) timers->begin(tag_of(run));
-  run_kernel(stage, run, kernels[s][static_cast<std::size_t>(run.work)], memory, blocks(s));
+  run_kernel(stage, run, kernel, memory, blocks(s));
   if (timing && timers) timers->end();
   if (by_clock) {
     device.finish();
@@ -316,6 +329,12 @@ std::vector<RepeatTurns> Execution::turns() const {
   };
   for (const std::vector<Op>* phase : {&parts_->plan.setup, &parts_->plan.step, &parts_->plan.frame}) visit(*phase);
   return list;
+}
+
+std::vector<PassGroups> Execution::step_counting_groups() {
+  parts_->counted.emplace();
+  step();
+  return std::move(*std::exchange(parts_->counted, std::nullopt));
 }
 
 void Execution::time_passes(bool on) { parts_->time_passes(on); }

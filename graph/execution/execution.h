@@ -36,6 +36,13 @@ struct PassTime {
   double seconds = 0;
 };
 
+// The groups of one indirect dispatch, as the device found them.
+struct PassGroups {
+  int stage = 0;
+  int work = 0;
+  std::uint64_t groups = 0;
+};
+
 // How often a repeat has run, and how many turns that took in all; in the order of the plan.
 struct RepeatTurns {
   config::Place place;
@@ -84,8 +91,12 @@ class Execution {
   [[nodiscard]] std::vector<std::byte> read(const std::string& buffer) const;
   void write(const std::string& buffer, std::span<const std::byte> data);
 
-  // Pieces of work from now on; at first as Options::profile says. Times are the device's timestamps, taken in a ring and read when
-  // they are there; on software renderers, and for host work everywhere, the processor's clock.
+  // One step in which the device is waited for before every indirect dispatch, and asked how many groups it will have; in order.
+  std::vector<PassGroups> step_counting_groups();
+
+  // Pieces of work from now on; dispatches that are left out are none. At first as Options::profile says. Times are the device's
+  // timestamps, taken in a ring and read when they are there; on software renderers, and for host work everywhere, the processor's
+  // clock.
   void time_passes(bool on);
   // Those not taken yet. Without `wait` only those that can be had at once.
   std::vector<PassTime> take_times(bool wait = true);

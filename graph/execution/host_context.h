@@ -32,6 +32,13 @@ class PlanContext final : public graph::HostContext {
     memory_.buffer(static_cast<int>(b)).download(0, data);
     return data;
   }
+  void read_into(std::string_view port, std::span<std::byte> data) override {
+    const std::size_t b = index(port);
+    if (plan_.buffers[b].texture || data.size() != plan_.buffers[b].bytes)
+      throw std::logic_error(fmt::format("{}: reads {} bytes of '{}', which has {}{}", stage_.label, data.size(), port,
+                                         plan_.buffers[b].bytes, plan_.buffers[b].texture ? ", as a picture" : ""));
+    memory_.buffer(static_cast<int>(b)).download(0, data);
+  }
   void write(std::string_view port, std::span<const std::byte> data) override {
     const std::size_t b = index(port);
     if (data.size() != plan_.buffers[b].bytes)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "gpu/subgroups.h"
 #include "graph/execution/stage_file_errors.h"
@@ -102,6 +103,12 @@ const gpu::Texture& target_texture(const PlannedStage& stage, const std::string&
   return memory.textures[static_cast<std::size_t>(stage.buffers[static_cast<std::size_t>(at)])];
 }
 
+gpu::Framebuffer target_of(const PlannedStage& stage, const Draw& draw, const Memory& memory) {
+  std::vector<const gpu::Texture*> colors;
+  for (const std::string& color : draw.colors) colors.push_back(&target_texture(stage, color, memory));
+  return {colors, draw.depth.empty() ? nullptr : &target_texture(stage, draw.depth, memory), stage.label};
+}
+
 }  // namespace
 
 graph::DeviceTraits traits_of(const gpu::Device& device) {
@@ -187,12 +194,7 @@ Kernel make_kernel(const Plan& plan, int stage_index, int work_index, const Memo
   size_kernel(kernel, plan, stage_index, work_index);
   if (!std::holds_alternative<graph::HostWork>(work))
     kernel.interface = graph::kernel_interface(plan, stage_index, work_index, traits_of(device));
-  if (const auto* draw = std::get_if<Draw>(&work)) {
-    std::vector<const gpu::Texture*> colors;
-    for (const std::string& color : draw->colors) colors.push_back(&target_texture(stage, color, memory));
-    kernel.target =
-        gpu::Framebuffer(colors, draw->depth.empty() ? nullptr : &target_texture(stage, draw->depth, memory), stage.label);
-  }
+  if (const auto* draw = std::get_if<Draw>(&work)) kernel.target = target_of(stage, *draw, memory);
   return kernel;
 }
 
@@ -248,7 +250,6 @@ void bind_kernel(const PlannedStage& stage, const Kernel& kernel, const Memory& 
 
 void run_kernel(const PlannedStage& stage, const graph::Run& run, const Kernel& kernel, const Memory& memory,
                 const StageBlocks& blocks) {
-  if (kernel.idle) return;
   bind_kernel(stage, kernel, memory, blocks);
   const graph::Work& work = stage.spec.work[static_cast<std::size_t>(run.work)];
   if (const auto* dispatch = std::get_if<Dispatch>(&work)) {
@@ -274,6 +275,21 @@ void run_kernel(const PlannedStage& stage, const graph::Run& run, const Kernel& 
       gpu::draw(kernel.target, draw_state(*draw), static_cast<std::uint32_t>(kernel.vertices),
                 static_cast<std::uint32_t>(kernel.elements));
   }
+}
+
+void rehearse_kernel(const PlannedStage& stage, int work, const Kernel& kernel, const Memory& memory, const StageBlocks& blocks) {
+  bind_kernel(stage, kernel, memory, blocks);
+  if (const auto* draw = std::get_if<Draw>(&stage.spec.work[static_cast<std::size_t>(work)])) {
+    // Contexts do not share targets.
+    gpu::rehearse_draw(target_of(stage, *draw, memory), draw_state(*draw));
+    return;
+  }
+  // The driver learns too late that there is nothing to run.
+  const std::array<std::uint32_t, 3> none{};
+  gpu::Buffer no_groups(sizeof(none), "no groups");
+  no_groups.upload(0, std::as_bytes(std::span(none)));
+  gpu::bind_indirect(no_groups);
+  gpu::dispatch_indirect(0);
 }
 
 }  // namespace firn::execution

@@ -41,7 +41,7 @@ struct Kernel {
   gpu::Framebuffer target;     // draws
   std::uint64_t elements = 0;  // dispatches: invocations; draws: instances
   std::uint64_t vertices = 0;
-  bool idle = false;  // a dispatch that needs elements of a domain without any
+  bool idle = false;  // a dispatch that needs elements of a domain without any; it is not to be run
 };
 
 // All of it but the program (programs.h).
@@ -71,5 +71,10 @@ void bind_kernel(const graph::PlannedStage& stage, const Kernel& kernel, const M
 // Binds, and runs it.
 void run_kernel(const graph::PlannedStage& stage, const graph::Run& run, const Kernel& kernel, const Memory& memory,
                 const StageBlocks& blocks);
+
+// Binds, and runs it on next to nothing, in whichever context is current, so that a driver makes its machine code, which depends on
+// what is bound. Leaves nothing anywhere.
+void rehearse_kernel(const graph::PlannedStage& stage, int work, const Kernel& kernel, const Memory& memory,
+                     const StageBlocks& blocks);
 
 }  // namespace firn::execution

@@ -5,7 +5,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <string>
 #include <thread>
@@ -54,9 +53,9 @@ void tell_stage_files(const graph::Plan& plan, const std::vector<Task>& tasks) {
 
 class Maker {
  public:
-  Maker(const graph::Plan& plan, std::vector<std::vector<Kernel>>& kernels, gpu::Device& device, const gpu::ProgramCache* cache,
-        const std::function<void(int, int)>& bind)
-      : plan_(plan), kernels_(kernels), device_(device), cache_(cache), bind_(bind) {}
+  Maker(std::vector<std::vector<Kernel>>& kernels, gpu::Device& device, const gpu::ProgramCache* cache,
+        const std::function<void(int, int)>& rehearse)
+      : kernels_(kernels), device_(device), cache_(cache), rehearse_(rehearse) {}
 
   // Of those that the cache has not got.
   void compile(const std::vector<Task>& tasks) {
@@ -86,19 +85,16 @@ class Maker {
     for (std::size_t i = 0; i < tasks.size(); ++i) kernel(tasks[i]).program = std::move(programs[i]);
   }
 
-  // Mesa's software renderer compiles when and where it is told to, and makes machine code at the first dispatch, per context; what
-  // another context has made it finds in its own cache on disk. Without that (it hands out no programs then) only the first half
-  // can be shared out.
+  // Mesa's software renderer compiles when and where it is told to, and makes machine code at the first dispatch or draw, per
+  // context; what another context has made it finds in its own cache on disk. Without that (it hands out no programs then) only the
+  // first half can be shared out.
   void compile_on_threads(const std::vector<Task>& tasks) {
     const bool machine_code = device_.info().program_binary_formats > 0;
-    const std::array<std::uint32_t, 3> none{};
-    gpu::Buffer no_groups(sizeof(none), "no groups");
-    no_groups.upload(0, std::as_bytes(std::span(none)));
     std::vector<std::string> errors(tasks.size());
     device_.share_out(tasks.size(), std::thread::hardware_concurrency(), [&](std::size_t i) {
       try {
         kernel(tasks[i]).program = std::move(gpu::compile_programs(std::span(&tasks[i].source, 1), cache_).front());
-        if (machine_code) make_machine_code(tasks[i], no_groups);
+        if (machine_code) rehearse_(tasks[i].stage, tasks[i].work);
       } catch (const gpu::ShaderError& error) {
         errors[i] = error.what();
       }
@@ -108,30 +104,20 @@ class Maker {
     if (!errors.empty()) throw gpu::ShaderError(fmt::format("{}", fmt::join(errors, "\n")));
   }
 
-  // The code depends on what is bound. The driver learns too late that there is nothing to run.
-  void make_machine_code(const Task& task, const gpu::Buffer& no_groups) {
-    const graph::PlannedStage& stage = plan_.stages[static_cast<std::size_t>(task.stage)];
-    if (!std::holds_alternative<graph::Dispatch>(stage.spec.work[static_cast<std::size_t>(task.work)])) return;
-    bind_(task.stage, task.work);
-    gpu::bind_indirect(no_groups);
-    gpu::dispatch_indirect(0);
-  }
-
-  const graph::Plan& plan_;
   std::vector<std::vector<Kernel>>& kernels_;
   gpu::Device& device_;
   const gpu::ProgramCache* cache_;
-  const std::function<void(int, int)>& bind_;
+  const std::function<void(int, int)>& rehearse_;
 };
 
 }  // namespace
 
 void make_programs(const graph::Plan& plan, std::vector<std::vector<Kernel>>& kernels, gpu::Device& device,
                    std::span<const std::filesystem::path> shader_folders, const gpu::ProgramCache* cache,
-                   const std::function<void(int stage, int work)>& bind) {
+                   const std::function<void(int stage, int work)>& rehearse) {
   std::vector<Task> tasks = tasks_of(plan, device, shader_folders);
   const std::size_t all = tasks.size();
-  Maker maker(plan, kernels, device, cache, bind);
+  Maker maker(kernels, device, cache, rehearse);
   std::erase_if(tasks, [&](const Task& task) { return maker.cached(task); });
   spdlog::debug("{} of {} programs are in the cache", all - tasks.size(), all);
   if (tasks.empty()) return;
