@@ -49,7 +49,8 @@ void collect(const Plan& plan, const std::vector<Op>& ops, FirstUses& uses, bool
       if (!in_repeat) note_lists(plan, *run, uses);
       for (const BufferAccess& access : run->accesses) {
         const std::string domain = base_domain(plan.buffers[static_cast<std::size_t>(access.buffer)].domain);
-        first.emplace(access.buffer, uses.relisted.contains(domain) || begins_anew(plan, *run, access));
+        const bool for_new_list = uses.relisted.contains(domain) && !reads(access.access);
+        first.emplace(access.buffer, for_new_list || begins_anew(plan, *run, access));
       }
     }
     if (const auto* repeat = std::get_if<Repeat>(&op.what)) {

@@ -241,7 +241,7 @@ graph::Environment environment(const Problem& problem) {
     result.domains["surface_corners"] = count(result.domains["particles"].count + 4096);
   }
   if (scene.field) add_field(scene, result);
-  result.listed_by = {{"grid_blocks", "active_blocks"}};
+  result.listed_by = {{"grid_blocks", "active_blocks"}, {"block_table", "active_blocks"}};
   result.choices["snow"] = scene.has_particles() ? "particles" : "none";
   result.choices["emitters"] = scene.emitters.empty() ? "none" : "some";
   result.choices["sinks"] = scene.sinks.empty() || !scene.has_particles() ? "none" : "some";

@@ -83,7 +83,7 @@ graph::Environment grid_environment(const GridSetup& setup) {
                     {"bodies", count(setup.bodies)},         {"key_frames", count(setup.key_frames)},
                     {"nodes", count(n(nx) * n(ny) * n(nz))}, {"grid_rows", count(n(ny) * n(nz))},
                     {"grid_blocks", count(room.blocks)},     {"block_table", count(room.table)}};
-  result.listed_by = {{"grid_blocks", "active_blocks"}};
+  result.listed_by = {{"grid_blocks", "active_blocks"}, {"block_table", "active_blocks"}};
   const auto scale = [](double bound) { return std::exp2(std::floor(std::log2(2147483647.0 / bound))); };
   result.constants = {{"grid_min", ElementType::vec3, setup.grid_min, "m", ""},
                       {"grid_cell", ElementType::float1, setup.cell, "m", ""},
