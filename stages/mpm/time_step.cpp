@@ -1,9 +1,8 @@
 #include "stages/mpm/time_step.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <stdexcept>
+#include <span>
 
 #include "stages/mpm_ports.h"
 
@@ -15,8 +14,9 @@ class TimeStepping final : public graph::HostStage {
   explicit TimeStepping(std::shared_ptr<const Problem> problem) : problem_(std::move(problem)) {}
 
   void run(graph::HostContext& context) override {
-    const auto bits = static_cast<std::uint32_t>(context.read_integers("fastest").at(0));
-    const double fastest = std::bit_cast<float>(bits);
+    float number = 0;
+    context.read_into("fastest", std::as_writable_bytes(std::span(&number, 1)));
+    const double fastest = number;
     if (!(fastest > 0) || !std::isfinite(fastest))
       return;  // nothing moves; what is not a number is told by the stages that meet it
     const double limit = problem_->scene.time.cfl * problem_->scene.domain->cell / fastest;

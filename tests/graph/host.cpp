@@ -84,6 +84,7 @@ class MemoryContext final : public HostContext {
   [[nodiscard]] PortView view(std::string_view port) const override { return views.find(port)->second; }
   [[nodiscard]] bool bound(std::string_view port) const override { return views.find(port) != views.end(); }
   std::vector<std::byte> read(std::string_view port) override { return data[std::string(port)]; }
+  void read_into(std::string_view port, std::span<std::byte> bytes) override { std::ranges::copy(read(port), bytes.begin()); }
   void write(std::string_view port, std::span<const std::byte> bytes) override {
     data[std::string(port)].assign(bytes.begin(), bytes.end());
   }
