@@ -93,7 +93,7 @@ TEST_CASE("a stage from a file runs, and its mistakes are told inside the file",
 
   const Case broken(pipeline, with(damping, "exp(-rate", "expp(-rate"));
   const Outcome failed = run_firn({"run", broken.pipeline, "--steps", "1", "--out", broken.folder / "out"});
-  CHECK(failed.status == 1);
+  CHECK(failed.status == 2);
   CHECK(failed.err.find("damping.comp:12: error:") != std::string::npos);
 }
 
