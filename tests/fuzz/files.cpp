@@ -44,9 +44,14 @@ void check_image(const Sandbox& sandbox, std::string_view bytes) {
 
 void check_mesh(const Sandbox& sandbox, std::string_view bytes) {
   if (bytes.empty()) return;
-  const char* name = bytes[0] == 'o' ? "input.obj" : bytes[0] == 'p' ? "input.ply" : bytes[0] == 's' ? "input.stl" : nullptr;
+  const char* name = bytes[0] == 'o' ? "input.obj" : bytes[0] == 'p' ? "input.ply" : nullptr;
   if (name == nullptr) return;
   const fs::path file = sandbox.put(name, bytes.substr(1));
+  read_or_refuse(file, [&] { look_into(scene::read_mesh(file.string(), 0.5)); });
+}
+
+void check_stl(const Sandbox& sandbox, std::string_view bytes) {
+  const fs::path file = sandbox.put("input.stl", bytes);
   read_or_refuse(file, [&] { look_into(scene::read_mesh(file.string(), 0.5)); });
 }
 

@@ -11,8 +11,9 @@ namespace firn::fuzz {
 
 void check_array(const Sandbox& sandbox, std::string_view bytes);  // .npy: as values, as points, as an image
 void check_image(const Sandbox& sandbox, std::string_view bytes);  // .png, or .f32 where it does not begin as a .png does
-// The first byte says which kind: 'o' .obj, 'p' .ply, 's' .stl. Read, mended, weighed, and asked what is inside.
+// The first byte says which kind: 'o' .obj, 'p' .ply. Read, mended, weighed, and asked what is inside.
 void check_mesh(const Sandbox& sandbox, std::string_view bytes);
+void check_stl(const Sandbox& sandbox, std::string_view bytes);  // the same
 // A checkpoint in which one file is replaced, by the first byte: 'm' the manifest, 'h' the list of hashes, 'a' an array, 'p' an
 // array before it is compressed. The list fits, unless it is the one.
 void check_checkpoint(const Sandbox& sandbox, std::string_view bytes);

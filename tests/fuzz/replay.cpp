@@ -45,5 +45,6 @@ TEST_CASE("no stage file of the corpus crashes, hangs or leaves a hazard") { rep
 TEST_CASE("no array of the corpus crashes or hangs") { replay("array", firn::fuzz::check_array); }
 TEST_CASE("no image of the corpus crashes or hangs") { replay("image", firn::fuzz::check_image); }
 TEST_CASE("no mesh of the corpus crashes or hangs") { replay("mesh", firn::fuzz::check_mesh); }
+TEST_CASE("no STL mesh of the corpus crashes or hangs") { replay("stl", firn::fuzz::check_stl); }
 TEST_CASE("no checkpoint of the corpus crashes or hangs") { replay("checkpoint", firn::fuzz::check_checkpoint); }
 TEST_CASE("no manifest of a run of the corpus crashes or hangs") { replay("manifest", firn::fuzz::check_manifest); }

@@ -110,10 +110,10 @@ void write_files(const fs::path& folder) {
   std::string binary = "pply\nformat binary_little_endian 1.0\n" + head + twelve_floats;
   for (int face = 0; face < 4; ++face) binary += std::string("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13);
   write(folder / "mesh" / "binary.ply", binary);
-  write(folder / "mesh" / "text.stl",
-        "ssolid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n");
-  write(folder / "mesh" / "binary.stl", "s" + std::string(80, ' ') + std::string("\1\0\0\0", 4) + std::string(12, '\0') +
-                                            twelve_floats.substr(0, 36) + std::string(2, '\0'));
+  write(folder / "stl" / "text.stl",
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n");
+  write(folder / "stl" / "binary.stl", std::string(80, ' ') + std::string("\1\0\0\0", 4) + std::string(12, '\0') +
+                                           twelve_floats.substr(0, 36) + std::string(2, '\0'));
   const std::string inputs =
       R"({"pipeline": "mpm_snow", "scene": "", "set": ["k=1"], "disable": [], "replace": [], "image": "64x64", "share_memory": true, )"
       R"("repeats": "auto", "device": "auto", "barriers": "derived", "dump": ["position=p.npy"], "checkpoint_every": 5, )"
@@ -139,7 +139,7 @@ int main(int count, char** words) {
     return 2;
   }
   const fs::path folder = words[1], shipped = fs::path(FIRN_SOURCE_DIR) / "pipelines";
-  for (const char* target : {"pipeline", "scene", "stage", "array", "image", "mesh", "checkpoint", "manifest"})
+  for (const char* target : {"pipeline", "scene", "stage", "array", "image", "mesh", "stl", "checkpoint", "manifest"})
     fs::create_directories(folder / target);
   write_files(folder);
   copy(shipped, ".yaml", folder / "pipeline");
@@ -149,6 +149,8 @@ int main(int count, char** words) {
   write(folder / "stage" / "whole_head.comp", whole_head);
   for (const char* kind : {"pipeline", "scene"})
     write_dictionary(folder / (std::string(kind) + ".dict"), words_of_schema(shipped / "schema" / (std::string(kind) + ".json")));
+  write_dictionary(folder / "stl.dict", {"solid ", "endsolid ", "facet normal 0 0 0\\x0a", "outer loop\\x0a", "vertex 0 0 1\\x0a",
+                                         "vertex 1 0 0\\x0a", "endloop\\x0a", "endfacet\\x0a", "nan", "-inf", "1e39"});
   write_dictionary(folder / "stage.dict",
                    {"ports:",    "parameters:", "type:",    "domain:",    "access:",    "usage:",      "unit:",        "doc:",
                     "optional:", "kind:",       "default:", "min:",       "max:",       "choices:",    "constants:",   "faults:",
