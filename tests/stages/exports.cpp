@@ -132,7 +132,7 @@ TEST_CASE("the lists of a series name each file with its time, and forget what a
 
 TEST_CASE("times of a series are as short as twelve digits allow") {
   Folder folder;
-  Shot shot(SceneText{}, "[io.particles]", small_image, folder.path().string());
+  Shot shot(SceneText{}, "[render.background, io.particles]", small_image, folder.path().string());
   shot.execution().clock().time = 7000 * 1e-4;  // 0.7000000000000001
   shot.frame();
   shot.execution().finish();
