@@ -6,7 +6,7 @@ namespace {
 
 std::string warnings_of(const Shipped& shipped) {
   config::Diagnostics diagnostics;
-  shipped.plan(shipped.pipeline, {}, diagnostics);
+  static_cast<void>(shipped.plan(shipped.pipeline, {}, diagnostics));
   std::string text;
   for (const config::Diagnostic& one : diagnostics.all()) text += to_string(one) + "\n";
   return text;
