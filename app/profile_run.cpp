@@ -29,8 +29,9 @@ void describe(const Plan& plan, const graph::Dispatch& dispatch, std::optional<d
   if (!dispatch.needs.empty() && count(dispatch.needs) == 0) pass.left_out = fmt::format("there are no {}", dispatch.needs);
   if (dispatch.indirect.empty()) {
     pass.elements = fmt::format("over {}, {}", dispatch.over, count(dispatch.over));
-    const std::uint64_t group = static_cast<std::uint64_t>(dispatch.group);
-    groups = static_cast<double>((count(dispatch.over) + group - 1) / group);
+    const auto group = static_cast<std::uint64_t>(dispatch.group);
+    const std::uint64_t launched = (count(dispatch.over) + group - 1) / group;
+    groups = static_cast<double>(launched);
   } else {
     pass.elements = fmt::format("over {:.1f} groups of {} on average", groups.value_or(0), dispatch.group);
   }
