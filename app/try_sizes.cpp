@@ -188,9 +188,9 @@ class Sizing {
 
   // A size that no array has told.
   void fill_in(const std::string& base, const std::vector<std::string>& ports) {
-    if (base == "facets" || base == "key_frames") {
+    if (base == "facets" || base == "swept_facets" || base == "key_frames") {
       environment_.domains[base] = DomainSize{0};
-      notes_.push_back(fmt::format("no {}: none were given", base == "facets" ? "triangles of bodies" : "key frames of paths"));
+      notes_.push_back(fmt::format("no {}: none were given", base != "key_frames" ? "triangles of bodies" : "key frames of paths"));
     } else if (is_image(base)) {
       environment_.domains[base] = base == "image" ? size_of(base, {720, 1280}) : size_of(base, {2048, 2048});
       notes_.push_back(fmt::format("'{}' is {} x {}", base, environment_.domains[base].width, environment_.domains[base].height));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -125,6 +126,11 @@ std::optional<Domain> read_domain(const Node& node, Diagnostics& diagnostics) {
 }  // namespace detail
 
 Eigen::Vector3i Domain::nodes() const { return ((max - min) / cell).array().round().cast<int>() + 1; }
+
+bool may_turn(const Body& body) {
+  const auto turned = [&](const KeyFrame& key) { return key.orientation.coeffs() != body.path.front().orientation.coeffs(); };
+  return body.path.empty() ? body.mass || !body.spin.isZero(0) : std::ranges::any_of(body.path, turned);
+}
 
 Scene read_scene(const config::Node& root, config::Diagnostics& diagnostics) {
   using namespace detail;

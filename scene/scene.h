@@ -166,6 +166,9 @@ struct Body {
   Place place;
 };
 
+// Whether anything in the scene can change the body's orientation: a mass, a spin, or a path that turns it.
+bool may_turn(const Body& body);
+
 // --- all of it --------------------------------------------------------------------------------------------------------------
 
 struct Domain {

@@ -198,12 +198,16 @@ std::shared_ptr<const Problem> make_problem(scene::Scene scene, Image image, std
       Problem{std::move(scene), std::move(particles), std::move(meshes), image, std::move(output)});
 }
 
-std::size_t facet_count(const Problem& problem) {
-  std::size_t facets = 0;
+FacetCounts facet_counts(const Problem& problem) {
+  FacetCounts counts;
+  const auto add = [&](std::size_t facets, bool swept) {
+    counts.all += facets;
+    if (swept) counts.swept += facets;
+  };
   for (const scene::Body& body : problem.scene.bodies)
-    if (std::holds_alternative<scene::Box>(body.shape)) facets += 12;
-  for (const scene::TriangleMesh& mesh : problem.meshes) facets += mesh.triangles.size();
-  return facets;
+    if (std::holds_alternative<scene::Box>(body.shape)) add(12, scene::may_turn(body));
+  for (const scene::TriangleMesh& mesh : problem.meshes) add(mesh.triangles.size(), true);
+  return counts;
 }
 
 graph::Environment environment(const Problem& problem) {
@@ -216,7 +220,9 @@ graph::Environment environment(const Problem& problem) {
   std::size_t key_frames = 0;
   for (const scene::Body& body : scene.bodies) key_frames += body.path.size();
   result.domains["key_frames"] = count(key_frames);
-  result.domains["facets"] = count(facet_count(problem));
+  const FacetCounts facets = facet_counts(problem);
+  result.domains["facets"] = count(facets.all);
+  result.domains["swept_facets"] = count(facets.swept);
   std::size_t distance_nodes = 0;
   for (const std::optional<DistanceGrid>& grid : distance_grids(problem)) distance_nodes += grid ? grid->count() : 0;
   result.domains["body_distances"] = count(distance_nodes);

@@ -27,6 +27,7 @@ Port port(const char* name, Access access, Usage usage) {
       {"overlap", float1, "cells", "m", "how far bodies reach into the snow, D: from 0 to the depth"},
       {"facet_points", vec3, "facets*3", "m", "corners of triangles of boxes and meshes, in the body's own axes"},
       {"facet_body", int1, "facets", "1", "body that a triangle belongs to"},
+      {"swept_facets", int1, "swept_facets", "1", "triangles of meshes and of boxes that may turn"},
       // what they do to the snow, and it to them
       {"displaced_mass", float1, "bodies", "kg", "snow that the body displaces"},
       {"contact_point", vec3, "bodies", "m", "mean point of the snow's resistance, 0 where there is none"},

@@ -156,7 +156,8 @@ Port body(const char* name, Access access, Usage usage) {
   static constexpr Facts table[] = {
       {"body_kind", ElementType::int1, "1", "0 half-space, 1 sphere, 2 box, 3 capsule, 4 mesh"},
       {"body_size", ElementType::vec4, "m",
-       "sphere: radius; box: half edges; capsule: radius, half length along local y; mesh: farthest point along each axis"},
+       "sphere: radius; box: half edges, and 1 if it may turn; capsule: radius, half length along local y; mesh: farthest point "
+       "along each axis"},
       {"body_position", ElementType::vec3, "m", "origin of the body; a point on the plane of a half-space"},
       {"body_orientation", ElementType::vec4, "1", "quaternion x, y, z, w; a half-space's outward normal is local +y"},
       {"body_velocity", ElementType::vec3, "m/s", "velocity of the origin"},

@@ -26,11 +26,16 @@ struct Problem {
 // Throws config::InputError where files of the scene cannot be read.
 std::shared_ptr<const Problem> make_problem(scene::Scene scene, Image image, std::string output);
 
-// Triangles of all boxes and meshes among the bodies.
-std::size_t facet_count(const Problem& problem);
+// Triangles of all boxes and meshes among the bodies, in their order; `swept`: of those the triangles of meshes and of boxes that
+// may turn.
+struct FacetCounts {
+  std::size_t all = 0, swept = 0;
+};
+FacetCounts facet_counts(const Problem& problem);
 
 // Domains: particles (as many as there is room for), emitters, sinks, materials, nodes, grid_rows, grid_blocks, block_table,
-// surface_corners, cells, tiles, bodies, key_frames, facets, body_distances, image, shadow_map. Constants: see environment.cpp.
+// surface_corners, cells, tiles, bodies, key_frames, facets, swept_facets, body_distances, image, shadow_map. Constants: see
+// environment.cpp.
 graph::Environment environment(const Problem& problem);
 
 // Bound of all speeds that the scene can bring about, m/s: initial speeds, bodies, and what gravity adds; for fixed-point scales.

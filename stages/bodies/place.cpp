@@ -63,7 +63,7 @@ Placed placed(const scene::Body& body, const scene::TriangleMesh& triangles) {
     result.moments = moments();
   } else if (const auto* block = std::get_if<scene::Box>(&body.shape)) {
     result.kind = box;
-    result.size.head<3>() = block->half_size;
+    result.size << block->half_size, scene::may_turn(body) ? 1.0 : 0.0;
     result.offset = block->center;
     result.moments = moments();
     result.corners = box_corners(block->half_size);
@@ -98,7 +98,7 @@ class Placing final : public graph::HostStage {
   explicit Placing(std::shared_ptr<const Problem> problem) : problem_(std::move(problem)) {}
 
   void run(graph::HostContext& context) override {
-    std::vector<std::int32_t> kind, path, facet_body;
+    std::vector<std::int32_t> kind, path, facet_body, swept_facets;
     std::vector<float> size, position, orientation, velocity, spin, friction, mass, inertia, color, path_time, path_position,
         path_orientation, facet_points;
     const std::vector<scene::Body>& bodies = problem_->scene.bodies;
@@ -129,11 +129,15 @@ class Placing final : public graph::HostStage {
         put_pose(key.position, key.orientation, path_position, path_orientation);
       }
       for (const Vector3d& corner : own.corners) put(facet_points, corner);
-      facet_body.insert(facet_body.end(), own.corners.size() / 3, static_cast<std::int32_t>(b));
+      const bool swept = own.kind == mesh || scene::may_turn(body);
+      for (std::size_t facet = 0; facet < own.corners.size() / 3; ++facet) {
+        if (swept) swept_facets.push_back(static_cast<std::int32_t>(facet_body.size()));
+        facet_body.push_back(static_cast<std::int32_t>(b));
+      }
     }
     if (context.bound("body_distances")) write_distances(context);
     const std::pair<const char*, const std::vector<std::int32_t>*> integers[] = {
-        {"body_kind", &kind}, {"body_path", &path}, {"facet_body", &facet_body}};
+        {"body_kind", &kind}, {"body_path", &path}, {"facet_body", &facet_body}, {"swept_facets", &swept_facets}};
     for (const auto& [port, values] : integers)
       if (context.bound(port)) context.write_integers(port, *values);
     const std::pair<const char*, const std::vector<float>*> floats[] = {{"body_size", &size},
@@ -195,7 +199,7 @@ graph::StageSpec place() {
   for (const graph::Port& port : mpm::key_frames(Access::write)) add(port, false);
   for (const char* name : {"body_friction", "body_color", "body_inertia", "body_position_before", "body_orientation_before"})
     add(mpm::body(name, Access::write), true);
-  for (const char* name : {"facet_points", "facet_body"}) add(heightfield::port(name, Access::write), true);
+  for (const char* name : {"facet_points", "facet_body", "swept_facets"}) add(heightfield::port(name, Access::write), true);
   for (const graph::Port& port : mpm::body_distances(Access::write, Usage::host)) add(port, true);
   return spec;
 }

@@ -7,16 +7,16 @@ namespace firn::stages::heightfield {
 
 graph::StageSpec underside() {
   using enum Access;
-  std::vector<graph::PortUse> round_body, flat_body;
-  for (std::vector<graph::PortUse>* uses : {&round_body, &flat_body})
+  std::vector<graph::PortUse> of_bodies, of_facets;
+  for (std::vector<graph::PortUse>* uses : {&of_bodies, &of_facets})
     for (const char* name : {"body_kind", "body_position", "body_orientation", "body_position_before", "body_orientation_before"})
       uses->push_back({name, read, graph::Usage::sampled});
-  round_body.push_back({"body_size", read, graph::Usage::sampled});
-  for (const char* name : {"facet_points", "facet_body"}) flat_body.push_back({name, read, graph::Usage::sampled});
+  of_bodies.push_back({"body_size", read, graph::Usage::sampled});
+  for (const char* name : {"facet_points", "facet_body", "swept_facets"}) of_facets.push_back({name, read, graph::Usage::sampled});
   const graph::PortUse map_again{"underside_map", read_write, graph::Usage::framebuffer};
   const graph::PortUse depth_again{"underside_depth", read_write, graph::Usage::framebuffer};
-  flat_body.push_back(map_again);
-  flat_body.push_back(depth_again);
+  of_facets.push_back(map_again);
+  of_facets.push_back(depth_again);
   return {.name = "heightfield.underside",
           .doc =
               "The lowest point of any body over each cell, on its way since the last step, by drawing the bodies from below; "
@@ -26,29 +26,29 @@ graph::StageSpec underside() {
               {{mpm::body("body_kind", read), mpm::body("body_size", read), mpm::body("body_position", read),
                 mpm::body("body_orientation", read), optional_body("body_position_before", read),
                 optional_body("body_orientation_before", read)},
-               ports({"facet_points", "facet_body"}, read),
+               ports({"facet_points", "facet_body", "swept_facets"}, read),
                {port("underside", read_write), port("owner", read_write), port("underside_map", write, graph::Usage::framebuffer),
                 port("underside_depth", write, graph::Usage::framebuffer), optional("changed_tiles", read_write)},
                cell_choice_ports()}),
           .parameters = {cells_parameter()},
           .constants = field_constants(),
-          .work = sequence({{graph::Draw{.name = "round bodies",
-                                         .vertex = "heightfield/underside_round.vert",
-                                         .fragment = "heightfield/underside_round.frag",
+          .work = sequence({{graph::Draw{.name = "bodies",
+                                         .vertex = "heightfield/underside_bodies.vert",
+                                         .fragment = "heightfield/underside_bodies.frag",
                                          .colors = {"underside_map"},
                                          .depth = "underside_depth",
                                          .instances = "bodies",
-                                         .vertices = "30",
+                                         .vertices = "36",
                                          .clear = true,
-                                         .uses = round_body},
-                             graph::Draw{.name = "flat bodies",
-                                         .vertex = "heightfield/underside_flat.vert",
-                                         .fragment = "heightfield/underside_flat.frag",
+                                         .uses = of_bodies},
+                             graph::Draw{.name = "facets",
+                                         .vertex = "heightfield/underside_facets.vert",
+                                         .fragment = "heightfield/underside_facets.frag",
                                          .colors = {"underside_map"},
                                          .depth = "underside_depth",
-                                         .instances = "facets",
+                                         .instances = "swept_facets",
                                          .vertices = "24",
-                                         .uses = flat_body}},
+                                         .uses = of_facets}},
                             over_cells("heightfield/underside.comp", {{"underside_map", read, graph::Usage::sampled},
                                                                       {"underside_depth", read, graph::Usage::sampled},
                                                                       {"underside", read_write},

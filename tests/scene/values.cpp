@@ -183,4 +183,14 @@ TEST_CASE("nodes lie on both ends of the domain, also where rounding makes the q
   CHECK(domain.nodes() == Eigen::Vector3i(7, 10, 22));
 }
 
+TEST_CASE("a body may turn by a mass, a spin or a path that turns it, and by nothing else") {
+  const std::string box = "{box: {size: [0.1, 0.1, 0.1]}, ";
+  CHECK_FALSE(scene::may_turn(body_of(box + "position: [1, 1, 1], velocity: [1, 0, 0]}")));
+  CHECK(scene::may_turn(body_of(box + "position: [1, 1, 1], mass: 2}")));
+  CHECK(scene::may_turn(body_of(box + "position: [1, 1, 1], spin: [0, 0, 0.1]}")));
+  const std::string there = "{t: 0, position: [1, 1, 1]}, ";
+  CHECK_FALSE(scene::may_turn(body_of(box + "path: [" + there + "{t: 1, position: [1.2, 1, 1]}]}")));
+  CHECK(scene::may_turn(body_of(box + "path: [" + there + "{t: 1, position: [1, 1, 1], orientation: [0, 1, 0, 0]}]}")));
+}
+
 }  // namespace firn::test

@@ -113,8 +113,10 @@ TEST_CASE("the underside of spheres, boxes, capsules and meshes is where rays fr
         if (other.kind == "mesh") other.points = s.points;
       shape = fmt::format("mesh: {{file: {}}}", mesh);
     }
-    // Every second one has a mass: a mesh then lies about its centre of mass, along its principal axes.
-    bodies += fmt::format("  - {{{}, {}{}}}\n", shape, pose(s.position, s.orientation), b % 2 == 0 || b == 3 ? ", mass: 10" : "");
+    // Every second one has a mass: a mesh then lies about its centre of mass, along its principal axes. So has one of the boxes,
+    // which might turn.
+    bodies += fmt::format("  - {{{}, {}{}}}\n", shape, pose(s.position, s.orientation),
+                          b % 2 == 0 || b == 3 || b == 5 ? ", mass: 10" : "");
     solids.push_back(s);
   }
   Simulation simulation(
@@ -169,7 +171,7 @@ TEST_CASE("the underside of a moving body is the lowest of all places on its way
   firn::reference::Random random(seed());
   const char* shapes[] = {"sphere: {radius: 0.4}", "box: {size: [0.8, 0.5, 0.6]}",
                           "capsule: {from: [-0.4, 0, 0], to: [0.4, 0, 0], radius: 0.25}"};
-  for (int kind = 0; kind < 3; ++kind) {
+  for (const int kind : {0, 1, 2, 1, 1, 1}) {  // a box takes six different parallelograms
     CAPTURE(shapes[kind]);
     const Vector3d from(2, 1.2, 2), velocity(random.uniform(10, 20), random.uniform(-3, 3), random.uniform(-8, 8));
     const Quaterniond turn = random.orientation().normalized();
@@ -209,5 +211,60 @@ TEST_CASE("the underside of a moving body is the lowest of all places on its way
         }
       }
     CHECK(covered > 5);
+  }
+}
+
+// An upright box that slides: the least height is that of its bottom, or above a tilted way that of the way; nothing is left out.
+TEST_CASE("a box that keeps its orientation covers every cell on its way, whichever edges and ways lie in one plane") {
+  struct Case {
+    Vector3d velocity;
+    bool turned;
+  };
+  INFO("seed " << seed());
+  firn::reference::Random random(seed());
+  const double v = random.uniform(8, 12);
+  for (const Case& one :
+       {Case{{0, 0, 0}, false}, Case{{v, 0, 0}, false}, Case{{0, v, 0}, false}, Case{{0, 0, -v}, false}, Case{{v, 0, v}, false},
+        Case{{-v, 0, 0.5 * v}, true}, Case{{0, -v, 0}, true}, Case{{v, -0.5 * v, 0}, false}}) {
+    CAPTURE(one.velocity.transpose(), one.turned);
+    const Vector3d from(4, 2, 3), half(0.4, 0.25, 0.3);
+    const Quaterniond turn =
+        one.turned ? Quaterniond(Eigen::AngleAxisd(random.uniform(0.1, 0.7), Vector3d::UnitY())) : Quaterniond::Identity();
+    Simulation simulation("heightfield_contour",
+                          fmt::format("firn: 1\nname: slide\ngravity: [0, 0, 0]\ntime: {{dt: 0.1, end: 1}}\nfield: {{size: [8, 6], "
+                                      "cells: [320, 240], depth: 0.3, material: new_snow}}\n"
+                                      "bodies: [{{box: {{size: [0.8, 0.5, 0.6]}}, {}, velocity: [{}, {}, {}]}}]\n",
+                                      pose(from, turn), one.velocity.x(), one.velocity.y(), one.velocity.z()));
+    simulation.steps(2);
+    const std::vector<float> underside = simulation.floats("underside");
+    int covered = 0;
+    for (int z = 0; z < 240; ++z)
+      for (int x = 0; x < 320; ++x) {
+        // In the box's axes, seen from above: for which parts of the way the cell lies in the rectangle, by its two slabs.
+        const Vector3d at = turn.conjugate() * (Vector3d((x + 0.5) * 0.025, 0, (z + 0.5) * 0.025) - from);
+        const Vector3d way = turn.conjugate() * (one.velocity * 0.1);
+        double first = 0, last = 1, slack = none;
+        for (const int axis : {0, 2}) {
+          if (std::abs(way[axis]) < 1e-9) {
+            slack = std::min(slack, half[axis] - std::abs(at[axis]));
+            continue;
+          }
+          const double one_end = (at[axis] - half[axis]) / way[axis], other_end = (at[axis] + half[axis]) / way[axis];
+          first = std::max(first, std::min(one_end, other_end));
+          last = std::min(last, std::max(one_end, other_end));
+        }
+        slack = std::min(slack, (last - first) * 0.5);
+        if (std::abs(slack) < 0.003) continue;  // an outline may be drawn either way
+        CAPTURE(x, z);
+        const float drawn = underside[static_cast<std::size_t>(z * 320 + x)];
+        if (slack < 0) {
+          CHECK(std::isinf(drawn));
+          continue;
+        }
+        ++covered;
+        const double lowest_y = from.y() - half.y() + way.y() * (way.y() < 0 ? last : first);
+        CHECK(static_cast<double>(drawn) == Approx(lowest_y).margin(1e-4 + std::abs(way.y()) / 100));
+      }
+    CHECK(covered > 700);
   }
 }

@@ -40,11 +40,9 @@ graph::Environment field_environment(int rows, int columns, double cell, std::ui
     const auto w = static_cast<std::uint64_t>(width), h = static_cast<std::uint64_t>(height);
     return graph::DomainSize{w * h, width, height, {h, w}};
   };
-  result.domains = {{"cells", grid(columns, rows)},
-                    {"tiles", grid((columns + 15) / 16, (rows + 15) / 16)},
-                    {"bodies", {bodies}},
-                    {"facets", {0}},
-                    {"key_frames", {0}}};
+  result.domains = {{"cells", grid(columns, rows)}, {"tiles", grid((columns + 15) / 16, (rows + 15) / 16)},
+                    {"bodies", {bodies}},           {"facets", {0}},
+                    {"swept_facets", {0}},          {"key_frames", {0}}};
   result.constants = {{"field_min", ElementType::vec3, graph::Vector3{origin.x(), 0, origin.y()}, "m", ""},
                       {"field_cell", ElementType::float1, cell, "m", ""},
                       {"min_density", ElementType::float1, 30.0, "kg/m3", ""},

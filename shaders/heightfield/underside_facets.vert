@@ -1,4 +1,4 @@
-// What a triangle of a box or a mesh passes through in a step: itself before and now, and what its edges sweep, two triangles each. Of
+// What a triangle of a mesh, or of a box that may turn, passes through in a step: itself before and now, and what its edges sweep, two triangles each. Of
 // that, the lowest surface is the lowest of the whole. Eight triangles per facet; those that cannot be seen are left out.
 #include "heightfield/underside_clip.glsl"
 #include "lib/body_pose.glsl"
@@ -19,7 +19,7 @@ bool hidden_in_box(Pose before, Pose now, vec3 normal, bool sweeps, vec3 first, 
 }
 
 void main() {
-  int facet = gl_InstanceID, part = gl_VertexID / 3;
+  int facet = swept_facets_at(gl_InstanceID), part = gl_VertexID / 3;
   body = facet_body_at(facet);
   Pose now = pose(body), before = pose_before(body);
   vec3 p0 = facet_points_at(3 * facet), p1 = facet_points_at(3 * facet + 1), p2 = facet_points_at(3 * facet + 2), normal = cross(p1 - p0, p2 - p0);
