@@ -29,23 +29,28 @@ void main() {
   if (!own_cell(cell)) return;
   int i = cell_index(cell), best_owner = -1;
   float best = 0.0;
-  if (!(overlap_at(i) > 0.0)) {
 #define LOOK(n) Overlap at##n = overlap_of(cell + neighbor_offsets[n]);
-    FOR_NEIGHBORS(LOOK)
-    ivec4 straight = ivec4(at0.body, at1.body, at2.body, at3.body), diagonal = ivec4(at4.body, at5.body, at6.body, at7.body);
-    for (int n = 0; n < 8; ++n) {
-      int b = n < 4 ? straight[n] : diagonal[n - 4];
-      if (b < 0 || b == best_owner) continue;
-      vec2 outward = slope_part(at0, b, 0) + slope_part(at1, b, 1) + slope_part(at2, b, 2) + slope_part(at3, b, 3) +
-                     slope_part(at4, b, 4) + slope_part(at5, b, 5) + slope_part(at6, b, 6) + slope_part(at7, b, 7);
-      float size = length(outward);
-      float s = direction_factor(body_velocity[b], size > 0.0 ? outward / size : vec2(0.0));
-      if (best_owner < 0 || s > best || (s == best && b < best_owner)) {
-        best = s;
-        best_owner = b;
-      }
+  FOR_NEIGHBORS(LOOK)
+  // By their numbers upwards, so that the first of equals stays. Most cells have no body beside them: then nothing is gone through.
+  uint body = uint(-1);
+#define FIRST(n) body = min(body, uint(at##n.body));
+  FOR_NEIGHBORS(FIRST)
+  if (overlap_at(i) > 0.0) body = uint(-1);
+  if (body != uint(-1)) do {
+    vec2 outward = vec2(0.0);
+    uint next = uint(-1);
+#define LEAN(n)                                                      \
+  outward += slope_part(at##n, int(body), n);                        \
+  if (uint(at##n.body) > body) next = min(next, uint(at##n.body));
+    FOR_NEIGHBORS(LEAN)
+    float size = length(outward);
+    float s = direction_factor(body_velocity[body], size > 0.0 ? outward / size : vec2(0.0));
+    if (best_owner < 0 || s > best) {
+      best = s;
+      best_owner = int(body);
     }
-  }
+    body = next;
+  } while (body != uint(-1));
   contour_weight[i] = best;
   contour_owner[i] = best_owner;
 }
