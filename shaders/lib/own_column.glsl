@@ -17,8 +17,8 @@ bool own_column(out ivec2 first) {
   first = ivec2(0);
   uint tile = group_number() < tiles_count ? OWN_TILES[group_number()] : no_tile;
   if (tile == no_tile) return false;
-  int width = tile_counts().x, lane = int(gl_LocalInvocationID.x);
-  first = tile_edge * ivec2(int(tile) % width, int(tile) / width) + ivec2(lane % tile_edge, lane / tile_edge * column_cells);
+  int lane = int(gl_LocalInvocationID.x);
+  first = tile_edge * divided(int(tile), tile_counts().x) + ivec2(lane % tile_edge, lane / tile_edge * column_cells);
   return true;
 #else
   uint index = element_index();
