@@ -67,7 +67,8 @@ std::optional<double> listed(const Plan& plan, const Run& run, const GroupCounts
 
 bool is_cleared(const graph::Work& work, const std::string& port) {
   const auto* draw = std::get_if<graph::Draw>(&work);
-  return draw != nullptr && draw->clear && (draw->depth == port || std::ranges::find(draw->colors, port) != draw->colors.end());
+  if (draw == nullptr || !draw->clear) return false;
+  return draw->depth.empty() ? std::ranges::find(draw->colors, port) != draw->colors.end() : draw->depth == port;
 }
 
 }  // namespace

@@ -182,9 +182,12 @@ TEST_CASE("bytes of passes over active tiles are those of the tiles", "[app]") {
   const json transform = pass_of(profile, "heightfield/distance_transform.comp");
   CHECK(transform.at("bytes_at_most") == true);
   CHECK(buffer_of(transform, "distance").at("read").get<double>() == Approx(tiles * 256 * 4));
-  // All tiles are looked through, and the whole picture of bodies is cleared.
+  // All tiles are looked through, and of the picture of bodies the whole depth is cleared, no more.
   CHECK(buffer_of(pass_of(profile, "heightfield/active_list.comp"), "tile_stamp").at("read") == 64 * 4);
-  CHECK(buffer_of(pass_of(profile, "round bodies"), "underside_map").at("written") == 128 * 128 * 8);
+  const json bodies = pass_of(profile, "bodies");
+  CHECK(buffer_of(bodies, "underside_depth").at("written") == 128 * 128 * 4);
+  CHECK(buffer_of(bodies, "underside_map").at("written").get<double>() == Approx(tiles * 256 * 8));
+  CHECK(bodies.at("bytes_at_most") == true);
 }
 
 TEST_CASE("passes that are left out for want of bodies are shown so", "[app]") {

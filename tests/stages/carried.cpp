@@ -104,7 +104,7 @@ TEST_CASE("a checkpoint of mpm_snow holds the state and nothing that a step or a
       "material_elastic", "material_plastic", "facet_body",     "facet_points",      "path_orientation",    "path_position",
       "path_time",        "body_color",       "body_distances", "body_distance_box", "body_distance_nodes", "body_friction",
       "body_inertia",     "body_kind",        "body_mass",      "body_orientation",  "body_path",           "body_position",
-      "body_size",        "body_spin",        "body_velocity",  "swept_facets"};
+      "body_size",        "body_spin",        "body_velocity"};
   // The table that finds blocks, which the next sort clears entry by entry.
   const std::set<std::string> of_table{"active_block_count", "block_counter", "block_entry",     "block_groups",
                                        "block_key",          "cell_count",    "particle_counter"};
