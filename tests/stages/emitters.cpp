@@ -55,7 +55,6 @@ TEST_CASE("particles come at their rate in every pipeline, and their mass is all
   CHECK(volume.back() == static_cast<float>(0.05 * 0.05 * 0.05 / 8));
   CHECK(std::vector<float>(elastic.end() - 9, elastic.end()) == std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1});
   CHECK(flow.floats("plastic_det").back() == 1);
-  if (flow.loaded.plan.buffer("density") >= 0) CHECK(flow.floats("density").back() == Approx(100));
 }
 
 TEST_CASE("a stream is the same however coarse the frames are, but for what forces do") {
@@ -141,6 +140,11 @@ TEST_CASE("emitters stop at the declared maximum, and go on where a sink makes r
   const double mass = full.total("mass");
   full.frames(3);
   CHECK(full.total("mass") == mass);
+  // What there was no room for is not due any more.
+  const std::vector<float> next = full.floats("emitter_next");
+  for (std::size_t e = 0; e < 2; ++e)
+    CHECK(std::bit_cast<std::uint32_t>(next.at(e)) ==
+          scene::emitted_until(full.loaded.problem->scene, full.loaded.problem->scene.emitters[e], full.execution->clock().time));
 
   Flow open("mpm_snow", snow + few + "sinks: [{box: {min: [0.2, 0, 0], max: [0.6, 0.5, 1]}, from: 0.2}]\n");
   open.frames(19);
@@ -151,11 +155,6 @@ TEST_CASE("emitters stop at the declared maximum, and go on where a sink makes r
         Approx(mass - open.total("removed_mass") + (open.total("emitted_mass") - full.total("emitted_mass"))));
   open.frames(5);
   CHECK(open.total("emitted_mass") > full.total("emitted_mass"));
-  // What there was no room for does not come later.
-  const std::vector<float> next = open.floats("emitter_next");
-  for (std::size_t e = 0; e < 2; ++e)
-    CHECK(std::bit_cast<std::uint32_t>(next.at(e)) ==
-          scene::emitted_until(open.loaded.problem->scene, open.loaded.problem->scene.emitters[e], open.execution->clock().time));
 }
 
 TEST_CASE("an emitter that is idle changes neither a byte nor a dispatch") {
