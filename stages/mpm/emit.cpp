@@ -12,9 +12,6 @@
 namespace firn::stages::mpm {
 namespace {
 
-// Of a particle that no sort has seen yet.
-constexpr std::int32_t no_cell = -1;
-
 class Emitting final : public graph::HostStage {
  public:
   explicit Emitting(std::shared_ptr<const Problem> problem) : problem_(std::move(problem)) {}
@@ -89,7 +86,6 @@ class Emitting final : public graph::HostStage {
     write("elastic", identity);
     write("material", std::vector<std::int32_t>(particles.material.begin(), particles.material.end()));
     if (context.bound("density")) write("density", density);
-    if (context.bound("particle_cell")) write("particle_cell", std::vector<std::int32_t>(count, no_cell));
   }
 
   std::shared_ptr<const Problem> problem_;
@@ -102,8 +98,8 @@ class Emitting final : public graph::HostStage {
 graph::StageSpec emit() {
   const auto access = Access::read_write;
   const auto host = Usage::host;
-  Port density_of = density(access), cell = optional(particle_cell(access));
-  density_of.usage = cell.usage = host;
+  Port density_of = density(access);
+  density_of.usage = host;
   std::vector<Port> ports{position(access, host),
                           velocity(access, host),
                           mass(access, host),
@@ -112,7 +108,6 @@ graph::StageSpec emit() {
                           plastic_det(access, host),
                           material(access, host),
                           density_of,
-                          cell,
                           {.name = "emitter_next",
                            .type = ElementType::uint1,
                            .domain = "emitters",

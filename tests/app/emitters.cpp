@@ -113,17 +113,24 @@ TEST_CASE("a run whose particles come and go goes on from a checkpoint to the bi
 TEST_CASE("exports hold the particles that there are, even none", "[app]") {
   const Folder folder;
   const std::string file = folder.write("scene.yaml", scene);
-  succeed(run_without_pictures(
-      "mpm_snow", file, folder / "out",
-      {"--frames", "5", "--export", "particles:vtp", "--export", "surface", "--dump", "position=" + (folder / "position.npy")}));
+  succeed(run_without_pictures("mpm_snow", file, folder / "out",
+                               {"--frames", "5", "--export", "particles:vtp", "--export", "particles:npy", "--export", "surface",
+                                "--dump", "position=" + (folder / "position.npy")}));
+  const fs::path exports = fs::path(folder / "out") / "export";
+  const auto text_of = [&](const char* frame) { return read_file(exports / (std::string("particles_") + frame + ".vtp")); };
   const auto points = [&](const char* frame) {
-    const std::string text = read_file(fs::path(folder / "out") / "export" / (std::string("particles_") + frame + ".vtp"));
-    const std::size_t at = text.find("NumberOfPoints=\"");
+    const std::string text = text_of(frame), start = "NumberOfPoints=\"";
+    const std::size_t at = text.find(start);
     REQUIRE(at != std::string::npos);
-    return std::stoi(text.substr(at + 16));
+    const int count = std::stoi(text.substr(at + start.size()));
+    CHECK(text.find("NumberOfVerts=\"" + std::to_string(count) + "\"") != std::string::npos);
+    return count;
   };
   const auto metrics = metrics_in(folder / "out");
   CHECK(points("0000") == 0);
+  for (const char* array : {"velocity", "J_P", "stress_norm", "material"})
+    CHECK(text_of("0000").find(std::string("Name=\"") + array + "\"") != std::string::npos);
+  CHECK(read_file(exports / "particles_0000_J_P.npy").find("'shape': (0,)") != std::string::npos);
   CHECK(points("0003") == metrics.at("particles")[3]);
   CHECK(points("0004") == metrics.at("particles")[4]);
   CHECK(read_file(folder / "position.npy").find("'shape': (" + std::to_string(points("0004")) + ", 3)") != std::string::npos);

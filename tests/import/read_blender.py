@@ -1,11 +1,15 @@
-"""Reads a run's exports with Blender and compares them with the run's NumPy arrays. Blender turns y up into z up."""
+"""Reads a run's exports with Blender and compares them with the run's NumPy arrays and poses. Blender turns y up into z up."""
 import os
 import sys
 
 import bpy
 import numpy as np
 
-snow, field, pictures = sys.argv[sys.argv.index("--") + 1:][:3]
+from run_folder import dumped, own_bounds, places
+
+words = sys.argv[sys.argv.index("--") + 1:]
+snow, field = words[:2]
+pictures = words[2] if len(words) > 2 else None
 
 
 def fresh():
@@ -29,6 +33,10 @@ def imported(operator, file):
     return [thing for thing in bpy.data.objects if thing not in before]
 
 
+def y_up(points):
+    return np.stack([points[:, 0], points[:, 2], -points[:, 1]], 1)
+
+
 def bounds(points):
     return points.min(0), points.max(0)
 
@@ -43,22 +51,32 @@ print(f"Blender: particles as PLY: {len(points)} vertices, largest difference {n
 surface = imported(bpy.ops.import_mesh.ply, os.path.join(snow, "surface_0003.ply"))
 faces = len(surface[0].data.polygons)
 low, high = bounds(vertices(surface))
-assert np.all(low > rows.min(0) - 0.05) and np.all(high < rows.max(0) + 0.05)
+assert np.all(np.abs(low - rows.min(0)) < 0.06) and np.all(np.abs(high - rows.max(0)) < 0.06), (low, high, bounds(rows))
 print(f"Blender: surface as PLY: {faces} faces, {low} to {high}")
 
 objects = imported(bpy.ops.wm.obj_import, os.path.join(snow, "surface_0003.obj"))
-again = vertices(objects)
-turned = np.stack([again[:, 0], again[:, 2], -again[:, 1]], 1)  # back to y up
+turned = y_up(vertices(objects))
 assert len(objects[0].data.polygons) == faces
 assert np.abs(bounds(turned)[0] - low).max() < 1e-5 and np.abs(bounds(turned)[1] - high).max() < 1e-5
 print(f"Blender: surface as OBJ: {len(objects[0].data.polygons)} faces, y up became z up")
 
 bodies = imported(bpy.ops.wm.obj_import, os.path.join(snow, "bodies_0003.obj"))
-print(f"Blender: bodies as OBJ: {[thing.name for thing in bodies]}")
-assert bodies
+assert [thing.name for thing in bodies] == ["ground"], bodies
+bodies = imported(bpy.ops.wm.obj_import, os.path.join(field, "bodies_0019.obj"))
+((name, place),) = places(field, 19).items()
+assert [thing.name for thing in bodies] == [name.replace(" ", "_")], (bodies, name)
+expected = np.array(own_bounds(field, 0)) + place
+found = np.array(bounds(y_up(vertices(bodies))))
+assert np.abs(found - expected).max() < 0.01 * (expected[1] - expected[0]).max(), (found, expected)
+print(f"Blender: bodies as OBJ: {name}, {found[0]} to {found[1]}")
 
+heights = dumped(field, "ground") + dumped(field, "depth")
 mesh = imported(bpy.ops.import_mesh.ply, os.path.join(field, "heightfield_0019.ply"))
-print(f"Blender: height field as PLY: {len(mesh[0].data.vertices)} vertices, {len(mesh[0].data.polygons)} faces")
+points = vertices(mesh)
+assert points.shape[0] == heights.size and np.abs(points[:, 1] - heights).max() < 1e-6
+turned = y_up(vertices(imported(bpy.ops.wm.obj_import, os.path.join(field, "heightfield_0019.obj"))))
+assert np.abs(turned - points).max() < 1e-5
+print(f"Blender: height field as PLY and OBJ: {len(points)} vertices, {len(mesh[0].data.polygons)} faces, heights as dumped")
 
 volume = imported(bpy.ops.object.volume_import, os.path.join(snow, "grid_0003.vdb"))
 grids = volume[0].data.grids

@@ -1,4 +1,4 @@
-"""Reads a run's exports with ParaView and compares them with the run's NumPy arrays."""
+"""Reads a run's exports with ParaView and compares them with the run's NumPy arrays, metrics and poses."""
 import os
 import sys
 
@@ -7,7 +7,10 @@ from paraview import simple as pv
 from vtkmodules.numpy_interface import dataset_adapter as dsa
 import paraview.servermanager as servermanager
 
-snow, field, pictures = sys.argv[1:4]
+from run_folder import dumped, metrics, own_bounds, places
+
+snow, field = sys.argv[1:3]
+pictures = sys.argv[3] if len(sys.argv) > 3 else None
 
 
 def opened(name, folder=snow):
@@ -30,10 +33,15 @@ def same(what, found, expected, tolerance=1e-6):
     print(f"ParaView: {what}: {found.shape} values agree, largest difference {worst:.1e}")
 
 
+def check_times(name, folder, source):
+    times = list(source.TimestepValues)
+    same(f"{name} times", times, metrics(folder)["time"])
+    return times
+
+
 for name in ("particles.vtp.series", "particles.pvd"):
     source = opened(name)
-    times = list(source.TimestepValues)
-    print(f"ParaView: {name}: times {times}")
+    times = check_times(name, snow, source)
     assert len(times) == 4 and times[0] == 0 and all(abs(t - i / 30) < 2e-4 for i, t in enumerate(times)), times
     for frame, time in enumerate(times):
         data = data_at(source, time)
@@ -46,17 +54,24 @@ for name in ("particles.vtp.series", "particles.pvd"):
         assert data.GetNumberOfCells() == len(rows)
 
 grid = opened("grid.vti.series")
-assert len(grid.TimestepValues) == 4
+check_times("grid.vti.series", snow, grid)
 rows = np.load(os.path.join(snow, "particles_0003.npy"))
 data = data_at(grid, grid.TimestepValues[3])
 cell = np.array(data.GetSpacing())
 density = np.asarray(data.PointData["density"])
 snowy = np.flatnonzero(density)
-places = np.array([data.GetPoint(int(n)) for n in snowy])
-low, high = places.min(0), places.max(0)
+places_of_nodes = np.array([data.GetPoint(int(n)) for n in snowy])
+low, high = places_of_nodes.min(0), places_of_nodes.max(0)
 assert np.all(low <= rows[:, :3].min(0)) and np.all(low >= rows[:, :3].min(0) - 2 * cell), (low, rows[:, :3].min(0))
 assert np.all(high >= rows[:, :3].max(0)) and np.all(high <= rows[:, :3].max(0) + 2 * cell), (high, rows[:, :3].max(0))
-print(f"ParaView: grid: snow from {low} to {high}, {density.size} nodes, mass {density.sum() * cell.prod():.6g} kg")
+# Sums over the nodes are those over the particles, each of them weighed by its density.
+of_node = density * cell.prod()
+run = metrics(snow)
+same("grid mass", of_node.sum(), run["mass"][3], 1e-5)
+same("grid momentum", (of_node[:, None] * np.asarray(data.PointData["velocity"])).sum(0),
+     [run[f"momentum_{axis}"][3] for axis in "xyz"], 1e-4)
+same("grid centre of mass", (of_node[snowy, None] * places_of_nodes).sum(0) / of_node.sum(), rows[:, :3].astype(float).mean(0), 1e-5)
+print(f"ParaView: grid: snow from {low} to {high}, {density.size} nodes, mass {of_node.sum():.6g} kg")
 
 surface = opened("surface_0003.ply")
 clean = pv.FeatureEdges(Input=surface, FeatureEdges=0, ManifoldEdges=0, BoundaryEdges=1, NonManifoldEdges=0)
@@ -64,18 +79,40 @@ clean.UpdatePipeline()
 print(f"ParaView: surface: {surface.GetDataInformation().GetNumberOfCells()} faces, "
       f"{clean.GetDataInformation().GetNumberOfCells()} open edges")
 assert clean.GetDataInformation().GetNumberOfCells() == 0
+points = np.asarray(dsa.WrapDataObject(servermanager.Fetch(surface)).Points)
+for found, expected in ((points.min(0), rows[:, :3].min(0)), (points.max(0), rows[:, :3].max(0))):
+    assert np.all(np.abs(found - expected) < 1.5 * cell), (found, expected)  # grows and shrinks by less than two cells
+again = opened("surface_0003.obj")
+same("surface as OBJ and as PLY", np.asarray(dsa.WrapDataObject(servermanager.Fetch(again)).Points), points, 1e-6)
 
 bodies = opened("bodies.vtp.series", field)
+low, high = own_bounds(field, 0)
+for frame, time in enumerate(check_times("bodies.vtp.series", field, bodies)):
+    points = np.asarray(data_at(bodies, time).Points)
+    (place,) = places(field, frame).values()
+    same(f"body in frame {frame}", [points.min(0), points.max(0)], [place + low, place + high], 1e-2 * (high - low).max())
+
 heights = opened("heightfield.vti.series", field)
-assert len(heights.TimestepValues) == 20
-data = data_at(heights, heights.TimestepValues[-1])
+times = check_times("heightfield.vti.series", field, heights)
+assert len(times) == 20
+run = metrics(field)
+for frame, time in enumerate(times):
+    data = data_at(heights, time)
+    depth, density = np.asarray(data.PointData["depth"], float), np.asarray(data.PointData["density"], float)
+    area = data.GetSpacing()[0] * data.GetSpacing()[2]
+    same(f"field frame {frame}: mass, depth", [(depth * density).sum() * area, depth.max()],
+         [run["snow_mass"][frame], run["max_depth"][frame]], 1e-5)
+for array in ("depth", "ground", "density"):
+    same(f"field {array} at last", data.PointData[array], dumped(field, array))
 names = set(heights.PointData.keys())
 assert {"surface", "depth", "ground", "density"} <= names, names
 same("surface = ground + depth", data.PointData["surface"],
      np.asarray(data.PointData["ground"]) + np.asarray(data.PointData["depth"]))
 mesh = opened("heightfield_0019.ply", field)
-mesh_heights = dsa.WrapDataObject(servermanager.Fetch(mesh)).Points[:, 1]
-same("the mesh's heights", mesh_heights, data.PointData["surface"])
+points = np.asarray(dsa.WrapDataObject(servermanager.Fetch(mesh)).Points)
+same("the mesh's heights", points[:, 1], data.PointData["surface"])
+nodes = np.array([data.GetPoint(n) for n in range(data.GetNumberOfPoints())])
+same("the mesh's places", points[:, [0, 2]], nodes[:, [0, 2]])
 
 if pictures:
     def shot(name, camera, target):

@@ -147,6 +147,7 @@ TEST_CASE("what is wrong with emitters and sinks is told at its place") {
              1);  // and 'rate' is missing
   check_told("rate: 2, velocity", "rate: -2, velocity", "-2, velocity", "rate");
   check_told("until: 1.5", "until: 0.2", "0.2}", "until must be later than from: 0.2 s is not later than 0.25 s");
+  check_told("until: 1.5", "until: 0.25", "0.25}", "until must be later than from: 0.25 s is not later than 0.25 s");
   check_told("size: [1, 0.5]", "size: [1, 0.5, 1]", "[1, 0.5, 1]", "must be a list of 2 numbers");
   check_told("direction: [3, 0, 0]", "direction: [0, 0, 0]", "[0, 0, 0], speed", "must not be zero");
   check_told("spread: 10", "spread: 91", "91", "spread");
@@ -155,9 +156,14 @@ TEST_CASE("what is wrong with emitters and sinks is told at its place") {
   check_told("material: light, from", "material: lihgt, from", "lihgt", "light");
   check_told("center: [1, 1, 0.5]", "center: [1, 1.45, 0.5]", "{snowfall: {center: [1, 1.45",
              "within a frame particles of this emitter reach y 1.428 to 1.45");
+  check_told("center: [1, 1, 0.5]", "center: [1, 1, 0.34]", "{snowfall: {center: [1, 1, 0.34", "reach z 0.09 to 0.59");
+  check_told("position: [0.4, 0.5, 0.5]", "position: [0.4, 0.5, 0.205]", "{gun", "reach z 0.09111 to 0.3189");
   check_told("position: [0.4, 0.5, 0.5]", "position: [1.85, 0.5, 0.5]", "{gun", "reach x");
   check_told("max: [2, 0.3, 1]}", "max: [2, 0.3, -1]}", "[2, 0.3, -1]", "greater than its min along z");
   check_told("min: [0, 0, 0], max: [2, 0.3, 1]", "min: [0, 2, 0], max: [2, 2.3, 1]", "{box: {min: [0, 2", "outside the domain");
+  check_told("min: [0, 0, 0], max: [2, 0.3, 1]", "min: [0, -2, 0], max: [2, -1, 1]", "{box: {min: [0, -2", "outside the domain");
+  check_told("rate: 2, velocity", "rate: 110, velocity", "{snowfall", "denser, 110 kg/m3, than its material, 100 kg/m3",
+             config::Severity::warning);
   check_told("radius: 0.1, rate: 2", "radius: 0.1, rate: 20", "{gun", "denser, 159 kg/m3, than its material, 100 kg/m3",
              config::Severity::warning);
 }
@@ -184,6 +190,9 @@ TEST_CASE("a maximum that does not suffice is an error where the scene begins wi
   REQUIRE(more.all().size() == 1);
   CHECK_FALSE(more.has_errors());
   CHECK(more.all()[0].text.find("max_particles: 5001 is enough") != std::string::npos);
+  config::Diagnostics as_many;
+  scene::check_room(scene, 5000, as_many);
+  CHECK_FALSE(as_many.has_errors());
   config::Diagnostics with_sink;
   scene::check_room(good_scene(base), 4999, with_sink);
   CHECK(with_sink.all().empty());

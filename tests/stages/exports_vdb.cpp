@@ -31,6 +31,7 @@ TEST_CASE("a vdb file has both grids with their values where the nodes are") {
   REQUIRE(density);
   REQUIRE(speed);
   CHECK(density->getGridClass() == openvdb::GRID_FOG_VOLUME);
+  CHECK(speed->getVectorType() == openvdb::VEC_CONTRAVARIANT_RELATIVE);
   double total = 0;
   openvdb::Vec3d center(0), momentum(0);
   for (auto value = density->cbeginValueOn(); value; ++value) {

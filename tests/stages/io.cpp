@@ -108,6 +108,20 @@ TEST_CASE("every frame is a PNG file that reads back equal to the picture") {
   CHECK(names_in(folder.path() / "frames") == std::vector<std::string>{"frame_0000.png", "frame_0001.png"});
 }
 
+TEST_CASE("pictures are the smaller the more they are compressed") {
+  std::vector<std::uintmax_t> sizes;
+  for (const char* compression : {"0", "1", "9"}) {
+    Folder folder;
+    Shot shot(SceneText{}, frames_pipeline(std::string("{io.frames: {compression: ") + compression + "}}"), "320x180",
+              folder.path().string());
+    shot.frame();
+    shot.execution().finish();
+    sizes.push_back(fs::file_size(folder.path() / "frames/frame_0000.png"));
+  }
+  CHECK(sizes[0] > sizes[1]);
+  CHECK(sizes[1] > sizes[2]);
+}
+
 TEST_CASE("without an output folder nothing is written") {
   Folder folder;
   const fs::path before = fs::current_path();

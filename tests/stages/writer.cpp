@@ -52,3 +52,16 @@ TEST_CASE("what a job throws is thrown by finish, and again, and later jobs are 
   CHECK_THROWS_WITH(writer.add(1, [&] { later = true; }), "the disk is full");
   CHECK_FALSE(later);
 }
+
+TEST_CASE("what waits behind a job that fails is not run") {
+  std::atomic<bool> later{false}, go_on{false};
+  Writer writer;
+  writer.add(1, [&] {
+    while (!go_on) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    throw std::runtime_error("the disk is full");
+  });
+  writer.add(1, [&] { later = true; });
+  go_on = true;
+  CHECK_THROWS_WITH(writer.finish(), "the disk is full");
+  CHECK_FALSE(later);
+}
