@@ -24,7 +24,7 @@ TEST_CASE("a scene of the wrong kind is one error that names what is missing and
       {"mpm_thesis", "stones", "the scene has no 'domain' with 'snow' in it", "two_snowballs", "footprints"},
   };
   for (const auto& one : table)
-    for (const char* verb : {"check", "run"}) {
+    for (const char* verb : {"check", "explain", "profile", "run"}) {
       const Folder folder;
       firn::test::Words words{verb, one.pipeline, "--scene", one.scene};
       if (std::string(verb) == "run") words.insert(words.end(), {"--out", folder / "out"});
