@@ -24,6 +24,7 @@ struct ProfiledPass {
   std::string left_out = {};              // why it is never launched: "there are no bodies"; empty: it is
 
   [[nodiscard]] double total() const;
+  [[nodiscard]] double typical() const;  // s, of all launches if each took the median: one that was held up changes nothing
   [[nodiscard]] double bytes() const;
   [[nodiscard]] bool bytes_at_most() const;       // some of them may not be touched, and weigh more than a tenth
   [[nodiscard]] double bytes_per_second() const;  // of the median launch
@@ -45,14 +46,21 @@ struct Holder {
 struct Profile {
   std::string pipeline, scene, device, clock;  // clock: which one the times are by, in words
   std::uint64_t steps = 0;
-  double wall = 0;             // s per step, with everything between passes
-  std::optional<double> cost;  // how much longer a step takes because it is timed: 0.01 is 1 %
-  Speed speed;                 // of the device
-  int units = 0;               // that work on groups at once; 0: not known
+  double wall = 0;  // s per step, with everything between passes
+  // How much longer a step takes because it is timed, 0.01 is 1 %: of blocks of steps with and without in turn the median, and what
+  // half of them lie between.
+  struct Cost {
+    double median = 0, low = 0, high = 0;
+    std::size_t pairs = 0;
+  };
+  std::optional<Cost> cost;
+  Speed speed;    // of the device
+  int units = 0;  // that work on groups at once; 0: not known
   std::vector<ProfiledPass> passes;
   std::vector<ProfiledLaunch> launches;
 
-  [[nodiscard]] double total() const;  // s, of all launches
+  [[nodiscard]] double total() const;                                  // s, of all launches
+  [[nodiscard]] double share_of_time(const ProfiledPass& pass) const;  // by the medians of all passes
   [[nodiscard]] double share_of_copy(const ProfiledPass& pass) const;
   [[nodiscard]] std::optional<double> share_of_arithmetic(const ProfiledPass& pass) const;
   // The nearer of the two: no pass can be done in less than this share of its time, unless caches hold what it works on. None on

@@ -39,13 +39,13 @@ td:first-child { white-space: nowrap; }
        display: none; max-width: 340px; z-index: 2; }
 </style></head><body>
 <h1 id="title"></h1><p class="pale" id="where"></p><div class="facts" id="facts"></div>
-<h2>Every step, its passes on top of each other</h2><svg id="steps" height="190"></svg>
-<p class="pale">Click a step to see it below; hover a bar for its pass.</p>
+<h2>Steps, their passes on top of each other</h2><svg id="steps" height="190"></svg>
+<p class="pale"><span id="shown"></span>Click a step to see it below; hover a bar for its pass.</p>
 <h2 id="step-title"></h2><svg id="step"></svg>
 <h2>Passes</h2><div class="scroll"><table id="passes"><thead><tr></tr></thead><tbody></tbody></table></div>
 <p class="pale">Bytes: every element that a launch works on, read or written once. Of bound: the time that these bytes would take at the
 device's rate of copying, or the formulas' additions and multiplications (maths) at its rate of arithmetic, whichever is longer, by the median;
-beyond 100 % caches help; &le; where only the kernel knows which elements it touches. Click a column to sort, a pass for more.</p>
+beyond 100 % caches help, or the kernel does with fewer operations than the formulas; &le; where only the kernel knows which elements it touches. Click a column to sort, a pass for more.</p>
 <div id="details"></div><div id="tip"></div>
 <script type="application/json" id="data">)";
 
@@ -77,6 +77,7 @@ std::string as_page(const Profile& profile) {
                       {"median", median(pass.seconds)},
                       {"p90", quantile(pass.seconds, 0.9)},
                       {"total", pass.total()},
+                      {"share", profile.share_of_time(pass)},
                       {"bytes", pass.bytes()},
                       {"rate", pass.bytes_per_second()},
                       {"maths", profile.share_of_arithmetic(pass).value_or(-1)},
@@ -110,7 +111,7 @@ std::string as_page(const Profile& profile) {
        {{"copy", profile.speed.bandwidth()}, {"multiply_add", profile.speed.multiply_add}, {"launch", profile.speed.launch}}},
       {"passes", passes},
       {"launches", launches}};
-  if (profile.cost) data["cost"] = *profile.cost;
+  if (profile.cost) data["cost"] = profile.cost->median;
   return page_begin + harmless(data.dump()) + "</script><script>" + profile_script + "</script></body></html>\n";
 }
 

@@ -8,11 +8,6 @@ namespace {
 
 using nlohmann::json;
 
-double share_of_time(const Profile& profile, const ProfiledPass& pass) {
-  const double total = profile.total();
-  return total > 0 ? pass.total() / total : 0;
-}
-
 // "<= 12.3 % bytes"
 std::string in_words(const Profile::Bound& bound) {
   return fmt::format("{}{:.1f} % {}", bound.at_most ? "<= " : "", 100 * bound.share, bound.by_bytes ? "bytes" : "maths");
@@ -34,7 +29,7 @@ std::string as_table(const Profile& profile) {
                                     : fmt::format("{:>9} {:>8}", "-", "-");
     const Holder holder = profile.held_back_by(pass);
     text += fmt::format("{:<{}} {:<36} {:>8.2f} {:>10.1f} {:>10.1f} {:>6.1f}% {} {:>17}  {}\n", pass.stage, longest, pass.work,
-                        launches, 1e6 * median(pass.seconds), 1e6 * quantile(pass.seconds, 0.9), 100 * share_of_time(profile, pass),
+                        launches, 1e6 * median(pass.seconds), 1e6 * quantile(pass.seconds, 0.9), 100 * profile.share_of_time(pass),
                         bytes, bound ? in_words(*bound) : "-", holder.name);
     sentences += fmt::format("{} {}: {}\n", pass.stage, pass.work, holder.sentence);
   }
@@ -42,12 +37,15 @@ std::string as_table(const Profile& profile) {
   text += fmt::format("\n{} steps: {:.3f} ms a step in passes, {:.3f} ms by the clock on the wall\n", profile.steps,
                       1e3 * profile.total() / steps, 1e3 * profile.wall);
   if (profile.cost)
-    text += fmt::format("timing makes a step {:.1f} % longer (medians of blocks of steps in turn)\n", 100 * *profile.cost);
+    text +=
+        fmt::format("timing makes a step {:.1f} % longer (median of {} pairs of blocks in turn; half of them {:.1f} to {:.1f} %)\n",
+                    100 * profile.cost->median, profile.cost->pairs, 100 * profile.cost->low, 100 * profile.cost->high);
   text += fmt::format("times by {}\n\nWhat holds each back\n{}\n", profile.clock, sentences);
   text += fmt::format(
       "MB: every element that a launch works on read or written once, however often it comes back to it\n"
       "of nearer bound: the time that these bytes would take at the device's rate of copying, or the formulas' additions and\n"
-      "  multiplications (maths) at its rate of arithmetic, whichever is longer, by the median; beyond 100 % caches help;\n"
+      "  multiplications (maths) at its rate of arithmetic, whichever is longer, by the median; beyond 100 % caches help, or\n"
+      "  the kernel does with fewer operations than the formulas;\n"
       "  <=: which elements of some buffers are touched only the kernel knows\n"
       "the device copies {}, multiplies and adds {}, and needs {:.2f} us from launch to launch\n",
       in_words(profile.speed.bandwidth(), "B"), in_words(profile.speed.multiply_add, "FLOP"), 1e6 * profile.speed.launch);
@@ -77,7 +75,7 @@ json as_json(const Profile& profile) {
                   {"median", median(pass.seconds)},
                   {"p90", quantile(pass.seconds, 0.9)},
                   {"total", pass.total()},
-                  {"share", share_of_time(profile, pass)},
+                  {"share", profile.share_of_time(pass)},
                   {"held_back_by", holder.name},
                   {"reason", holder.sentence}};
     if (!pass.left_out.empty()) entry["left_out"] = pass.left_out;
@@ -100,7 +98,7 @@ json as_json(const Profile& profile) {
   json result = {{"pipeline", profile.pipeline},    {"scene", profile.scene}, {"device", profile.device},
                  {"clock", profile.clock},          {"steps", profile.steps}, {"seconds_per_step", profile.wall},
                  {"speed", as_json(profile.speed)}, {"passes", passes}};
-  if (profile.cost) result["cost"] = *profile.cost;
+  if (profile.cost) result.update({{"cost", profile.cost->median}, {"cost_quartiles", {profile.cost->low, profile.cost->high}}});
   return result;
 }
 

@@ -63,21 +63,30 @@ class Run {
         execution_(device, loaded.plan, loaded.registry, {shader_folders(), false, false, program_cache_folder()}),
         time_(loaded.problem->scene.time) {
     execution_.setup();
+    needs_frames_ =
+        std::ranges::any_of(loaded.plan.stages, [](const graph::PlannedStage& stage) { return !stage.spec.resizes.empty(); });
+    frame_if_due();
   }
 
   // The seconds of so many steps.
   double steps(std::uint64_t count, bool timed) {
     execution_.time_passes(timed);
     device_.finish();
-    const auto start = std::chrono::steady_clock::now();
-    for (std::uint64_t i = 0; i < count; ++i) {
-      set_time_step();
-      execution_.step();
-      if (timed) keep(execution_.take_times(false));
+    double seconds = 0;
+    for (std::uint64_t i = 0; i < count;) {
+      const auto start = std::chrono::steady_clock::now();
+      do {
+        set_time_step();
+        execution_.step();
+        if (timed) keep(execution_.take_times(false));
+      } while (++i < count && !is_frame_due());
+      device_.finish();
+      seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      if (timed) keep(execution_.take_times(true));
+      execution_.time_passes(false);
+      frame_if_due();
+      execution_.time_passes(timed);
     }
-    device_.finish();
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (timed) keep(execution_.take_times(true));
     return seconds;
   }
 
@@ -93,12 +102,21 @@ class Run {
   [[nodiscard]] const std::vector<execution::PassTime>& times() const { return times_; }
 
  private:
+  // Frames are not timed. They are run only where they change how much there is to do: by emitters and sinks.
+  [[nodiscard]] bool is_frame_due() {
+    const graph::Clock& clock = execution_.clock();
+    return needs_frames_ && clock.time >= static_cast<double>(clock.frame) / time_.fps;
+  }
+  void frame_if_due() {
+    if (is_frame_due()) execution_.frame();
+  }
   void set_time_step() { execution_.clock().dt = time_.dt.value_or(1.0 / time_.fps); }
   void keep(const std::vector<execution::PassTime>& times) { times_.insert(times_.end(), times.begin(), times.end()); }
 
   gpu::Device& device_;
   execution::Execution execution_;
   scene::Time time_;
+  bool needs_frames_ = false;
   std::vector<execution::PassTime> times_;
   GroupCounts groups_;
 };
@@ -119,16 +137,19 @@ Profile run_profile(const Loaded& loaded, gpu::Device& device, const ProfileRequ
 
   Run run(loaded, device);
   run.steps(request.warm_up, false);
-  // With and without in turn, in short blocks, so that what else the machine does weighs on both alike.
-  constexpr std::uint64_t block = 10;
-  std::vector<double> with, without;
+  // With and without in turn, in short blocks, so that what else the machine does weighs on both alike; every second time the other
+  // way round.
+  const std::uint64_t block = std::clamp<std::uint64_t>(request.steps / 20, 1, 10);
+  std::vector<double> ratios;
   double wall = 0;
   for (std::uint64_t done = 0; done < request.steps;) {
     const std::uint64_t count = std::min(block, request.steps - done);
-    if (request.cost) without.push_back(run.steps(count, false) / static_cast<double>(count));
-    const double seconds = run.steps(count, true);
-    with.push_back(seconds / static_cast<double>(count));
-    wall += seconds;
+    const bool untimed_first = ratios.size() % 2 == 0;
+    double without = request.cost && untimed_first ? run.steps(count, false) : 0;
+    const double with = run.steps(count, true);
+    if (request.cost && !untimed_first) without = run.steps(count, false);
+    if (request.cost) ratios.push_back(with / without);
+    wall += with;
     done += count;
     run.count_groups();
   }
@@ -140,7 +161,8 @@ Profile run_profile(const Loaded& loaded, gpu::Device& device, const ProfileRequ
     if (rows.emplace(std::pair{one->stage, one->work}, profile.passes.size()).second)
       profile.passes.push_back(describe(run.execution().plan(), *one, run.groups()));
   profile.wall = wall / static_cast<double>(request.steps);
-  if (request.cost) profile.cost = median(with) / median(without) - 1;
+  if (request.cost)
+    profile.cost = Profile::Cost{median(ratios) - 1, quantile(ratios, 0.25) - 1, quantile(ratios, 0.75) - 1, ratios.size()};
 
   std::map<std::uint64_t, std::uint64_t> numbers;  // of steps: those between, untimed, do not count
   std::vector<execution::PassTime> times = run.times();

@@ -78,6 +78,8 @@ const hoverable = (element, pass) => {
 const steps = [];
 for (const [pass, step, start, seconds] of data.launches) (steps[step] = steps[step] || []).push({pass, start, seconds});
 let shown = 0;
+if (steps.length < data.steps)
+  node('shown').textContent = `The first ${steps.length} of ${data.steps} steps are drawn; the table counts all. `;
 const draw_steps = () => {
   const picture = node('steps'), width = picture.clientWidth, height = 190, left = 62, bottom = 22, top = 10;
   picture.textContent = '';
@@ -148,7 +150,7 @@ const columns = [
   ['stage', pass => pass.stage, value => value, false], ['work', short, value => value, false],
   ['per step', pass => pass.launches / data.steps, value => value.toFixed(2), true],
   ['median', pass => pass.median, time, true], ['p90', pass => pass.p90, time, true],
-  ['share', pass => pass.total / data.total, percent, true],
+  ['share', pass => pass.share, percent, true],
   ['bytes', pass => known(pass) ? pass.bytes : -1, value => value < 0 ? '\u2013' : size(value), true],
   ['bandwidth', pass => known(pass) ? pass.rate : -1, value => value < 0 ? '\u2013' : rate(value), true],
   ['of bound', pass => pass.bound, (value, pass) => value < 0 ? '\u2013' : of_bound(pass), true],

@@ -57,6 +57,8 @@ Holder by_its_own_work(const Profile& profile, const ProfiledPass& pass) {
 
 double ProfiledPass::total() const { return std::accumulate(seconds.begin(), seconds.end(), 0.0); }
 
+double ProfiledPass::typical() const { return median(seconds) * static_cast<double>(seconds.size()); }
+
 double ProfiledPass::bytes() const {
   double sum = 0;
   for (const Traffic& one : traffic) sum += one.read + one.written;
@@ -95,6 +97,12 @@ double Profile::total() const {
   return sum;
 }
 
+double Profile::share_of_time(const ProfiledPass& pass) const {
+  double sum = 0;
+  for (const ProfiledPass& each : passes) sum += each.typical();
+  return sum > 0 ? pass.typical() / sum : 0;
+}
+
 std::optional<Profile::Bound> Profile::bound(const ProfiledPass& pass) const {
   if (pass.host || !pass.left_out.empty()) return std::nullopt;
   const double bytes = share_of_copy(pass), arithmetic = share_of_arithmetic(pass).value_or(0);
@@ -104,11 +112,12 @@ std::optional<Profile::Bound> Profile::bound(const ProfiledPass& pass) const {
 Holder Profile::held_back_by(const ProfiledPass& pass) const {
   if (!pass.left_out.empty()) return {"left out", fmt::format("it is never launched, as {}", pass.left_out)};
   if (pass.host) return {"the processor", "it runs on the processor, and the device waits for it"};
-  const double middle = median(pass.seconds);
-  if (middle <= 2 * speed.launch)
-    return {"launching",
-            fmt::format("it takes {:.1f} us, where empty kernels take {:.1f} us each", 1e6 * middle, 1e6 * speed.launch)};
   const double bytes = share_of_copy(pass), arithmetic = share_of_arithmetic(pass).value_or(0);
+  if (arithmetic > beyond_bound)
+    return {"arithmetic",
+            fmt::format("the formulas' additions and multiplications would take {:.1f} times as long at the device's rate: "
+                        "the kernel does with fewer",
+                        arithmetic)};
   if (arithmetic >= near_bound && (arithmetic > bytes || bytes > beyond_bound || pass.bytes_at_most()))
     return {"arithmetic",
             fmt::format("it adds and multiplies at {} of the rate of which the device is capable", percent(arithmetic))};
@@ -119,6 +128,9 @@ Holder Profile::held_back_by(const ProfiledPass& pass) const {
             fmt::format(
                 "caches hold what it works on, or it leaves elements out: {:.1f} times the bytes a second that the device copies",
                 bytes)};
+  if (const double middle = median(pass.seconds); middle <= 2 * speed.launch)
+    return {"launching",
+            fmt::format("it takes {:.1f} us, where empty kernels take {:.1f} us each", 1e6 * middle, 1e6 * speed.launch)};
   return by_its_own_work(*this, pass);
 }
 

@@ -130,10 +130,34 @@ TEST_CASE("a pass is held back by the nearer of its bounds, once it comes near i
   pass.groups = 1;
   held_by("too few elements");
   pass.seconds = {2e-6};
+  pass.traffic.clear();
+  pass.operations = {};
   held_by("launching");
+  pass.operations = 1.8e-6 * profile.speed.multiply_add;  // short, and all the same arithmetic
+  held_by("arithmetic");
+  pass.operations = 5e-6 * profile.speed.multiply_add;
+  held_by("arithmetic");
+  CHECK(profile.held_back_by(pass).sentence.find("2.5 times") != std::string::npos);
   pass.host = true;
   held_by("the processor");
   CHECK_FALSE(profile.bound(pass));
+}
+
+TEST_CASE("a launch that was held up does not change a pass's share", "[app]") {
+  firn::app::Profile profile;
+  profile.steps = 5;
+  profile.passes.resize(2);
+  profile.passes[0].seconds = {1e-3, 1e-3, 1e-3, 1e-3, 1};
+  profile.passes[1].seconds = {3e-3, 3e-3, 3e-3, 3e-3, 3e-3};
+  CHECK(profile.share_of_time(profile.passes[0]) == Approx(0.25));
+  CHECK(profile.share_of_time(profile.passes[1]) == Approx(0.75));
+}
+
+TEST_CASE("snow that emitters bring is there to be profiled", "[app]") {
+  const Folder folder;
+  const json profile = json::parse(
+      run_firn({"profile", "mpm_snow", "--scene", "snow_gun", "--warm-up", "200", "--steps", "4", "--format", "json"}).out);
+  CHECK(pass_of(profile, "mpm/advect.comp").at("bytes_written").get<double>() > 16 * 10);
 }
 
 TEST_CASE("bytes of a pass follow from its ports, those of listed blocks from the list", "[app]") {
