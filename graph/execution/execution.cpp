@@ -106,9 +106,10 @@ struct Execution::Parts {
   [[nodiscard]] StageBlocks blocks(std::size_t stage) const { return {parameters[stage], clock_block, faults}; }
 
   void time_passes(bool on) {
+    if (on && !timing)
+      device.finish();  // so that no pass waits for earlier work, and the ring's start is not later than the clock's
     timing = on;
     if (!on || timers || device.info().software) return;
-    device.finish();  // else the ring's start would be later than the clock's
     timers = std::make_unique<gpu::TimerRing>(4096);
     ring_made = now();
   }
@@ -204,13 +205,13 @@ void Execution::Parts::work(const graph::Run& run, std::uint64_t turn) {
   // A software renderer's timestamps say nothing of draws, which it does later, nor of what comes between: there the processor's
   // clock.
   const bool by_clock = timing && !timers;
-  if (by_clock) device.finish();
   const double start = timing ? now() : 0;
   if (timing && timers) timers->begin(tag_of(run));
   run_kernel(stage, run, kernel, memory, blocks(s));
   if (timing && timers) timers->end();
   if (by_clock) {
-    device.finish();
+    // Draws are only noted down by their call; a dispatch is over when its call returns.
+    if (std::holds_alternative<graph::Draw>(stage.spec.work[static_cast<std::size_t>(run.work)])) device.finish();
     clock_times.push_back({run.stage, run.work, clock.step, start, now() - start});
   }
   if (options.barriers_all) gpu::memory_barrier_all();
