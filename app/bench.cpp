@@ -28,6 +28,31 @@ constexpr Benchmark benchmarks[] = {
     {"graph", "planning a pipeline of so many stages", bench_graph, false},
 };
 
+// Every name that there is with these sizes, and what those begin with; short ones first. Opens no device.
+std::vector<std::string> names(const std::string& wanted, bool small) {
+  Bench bench({.only = wanted, .small = small, .listing = true});
+  for (const Benchmark& one : benchmarks) one.run(bench);
+  std::vector<std::string> all;
+  for (const std::string& name : bench.asked())
+    for (std::size_t end = 0; end != std::string::npos;) {
+      end = name.find('/', end + 1);
+      if (const std::string part = name.substr(0, end); std::ranges::find(all, part) == all.end()) all.push_back(part);
+    }
+  std::ranges::stable_sort(all, {}, [](const std::string& name) { return std::ranges::count(name, '/'); });
+  return all;
+}
+
+// What is wrong with the name of what is wanted; empty: nothing.
+std::string problem_of(const Bench::Wanted& wanted) {
+  const auto has = [&](const std::vector<std::string>& all) { return std::ranges::find(all, wanted.only) != all.end(); };
+  const std::vector<std::string> there = names(wanted.only, wanted.small);
+  if (wanted.only.empty() || has(there)) return "";
+  const char *these = wanted.small ? "small" : "full", *others = wanted.small ? "full" : "small";
+  if (has(names(wanted.only, !wanted.small)))
+    return fmt::format("no benchmark '{}' with --sizes {}: it is one of --sizes {}", wanted.only, these, others);
+  return fmt::format("no benchmark '{}'{}", wanted.only, config::suggestion(wanted.only, there));
+}
+
 // Whether `name` lies on the path `below` or is it.
 bool leads_to(const std::string& name, const std::string& below) { return below == name || below.starts_with(name + "/"); }
 
@@ -56,6 +81,11 @@ int bench(BenchOptions options) {
   options.wanted.small = options.sizes == "small";
   options.wanted.runs = options.runs.value_or(options.wanted.small ? 5 : 7);
   options.wanted.quiet = options.json;
+  if (const std::string problem = problem_of(options.wanted); !problem.empty()) {
+    fmt::print(stderr, "firn bench: {}\nfirn bench --help tells what there is\n", problem);
+    return Status::bad_input;
+  }
+  const std::filesystem::path gnuplot = options.plots.empty() ? "" : prepare_plots(options.plots);
   Bench bench(options.wanted);
   for (const Benchmark& one : benchmarks) {
     if (!bench.wants(one.name)) continue;
@@ -63,14 +93,8 @@ int bench(BenchOptions options) {
     bench.begin(one.name, one.doc);
     one.run(bench);
   }
-  if (bench.results().empty() && bench.impossible().empty()) {
-    const std::string& name = options.wanted.only;
-    fmt::print(stderr, "firn bench: no benchmark '{}'{}\nfirn bench --help tells what there is\n", name,
-               config::suggestion(name, bench.asked()));
-    return Status::bad_input;
-  }
   if (options.json) fmt::print("{}\n", as_json(bench).dump(2));
-  if (!options.plots.empty()) plot_bench(bench, options.plots);
+  if (!options.plots.empty()) plot_bench(bench, gnuplot, options.plots);
   return Status::done;
 }
 
@@ -82,7 +106,10 @@ double BenchResult::rate() const {
 }
 
 bool Bench::wants(const std::string& name) {
-  asked_.push_back(name);
+  if (wanted_.listing) {
+    asked_.push_back(name);
+    return false;
+  }
   return wanted_.only.empty() || leads_to(wanted_.only, name) || leads_to(name, wanted_.only);
 }
 

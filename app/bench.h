@@ -3,6 +3,7 @@
 // The standard measurements. What is compared is run in turn within one call, and medians are told: machines are noisy.
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -37,7 +38,8 @@ class Bench {
     bool small = false;
     int runs = 7;
     std::string device = "auto";
-    bool quiet = false;  // nothing is printed as it comes
+    bool quiet = false;    // nothing is printed as it comes
+    bool listing = false;  // nothing is wanted: only asked() counts
   };
   explicit Bench(Wanted wanted) : wanted_(std::move(wanted)) {}
 
@@ -45,6 +47,8 @@ class Bench {
   [[nodiscard]] int runs() const { return wanted_.runs; }
   // Also of names that results begin with.
   [[nodiscard]] bool wants(const std::string& name);
+  // Whether names below this one are to be listed: they take reading a pipeline.
+  [[nodiscard]] bool lists_below(const std::string& name) const { return wanted_.listing && wanted_.only.starts_with(name + "/"); }
   [[nodiscard]] gpu::Device& device();  // opened when first asked for
   [[nodiscard]] const gpu::Device* opened() const { return device_.get(); }
 
@@ -54,7 +58,7 @@ class Bench {
 
   [[nodiscard]] const std::vector<BenchResult>& results() const { return results_; }
   [[nodiscard]] const std::vector<NotPossible>& impossible() const { return impossible_; }
-  [[nodiscard]] const std::vector<std::string>& asked() const { return asked_; }  // every name that wants() heard of
+  [[nodiscard]] const std::vector<std::string>& asked() const { return asked_; }  // when listing: every name that wants() heard of
 
  private:
   Wanted wanted_;
@@ -102,8 +106,9 @@ void bench_heightfield(Bench& bench);
 void bench_barriers(Bench& bench);
 void bench_graph(Bench& bench);
 
-// One picture per benchmark, named after it, by gnuplot. Throws std::runtime_error where that is not installed, or a file cannot be
-// written.
-void plot_bench(const Bench& bench, const std::string& folder);
+// gnuplot, and the folder for its pictures made. Throws std::runtime_error where it is not installed, or the folder cannot be had.
+std::filesystem::path prepare_plots(const std::string& folder);
+// One picture per benchmark, named after it. Throws std::runtime_error where a file cannot be written.
+void plot_bench(const Bench& bench, const std::filesystem::path& gnuplot, const std::string& folder);
 
 }  // namespace firn::app

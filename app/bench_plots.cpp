@@ -1,8 +1,11 @@
 // Pictures of results, by gnuplot: lines over what was varied, bars for the rest.
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <map>
 #include <stdexcept>
@@ -76,12 +79,18 @@ std::string bars(const fs::path& file, const std::string& title, const std::vect
 
 }  // namespace
 
-void plot_bench(const Bench& bench, const std::string& folder) {
-  const fs::path program = stages::find_program("gnuplot");
+fs::path prepare_plots(const std::string& folder) {
+  fs::path program = stages::find_program("gnuplot");
   if (program.empty()) throw std::runtime_error("no plots: gnuplot is not installed (Debian: gnuplot-nox)");
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw std::runtime_error(fmt::format("cannot make the folder {}: {}", folder, error.message()));
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
+    throw std::runtime_error(fmt::format("cannot write into the folder {}: {}", folder, std::strerror(errno)));
+  return program;
+}
+
+void plot_bench(const Bench& bench, const fs::path& gnuplot, const std::string& folder) {
   const std::string device = bench.opened() != nullptr ? bench.opened()->info().name : "no device";
   // By benchmark, and within one by what was varied.
   std::map<std::string, std::map<std::string, std::vector<const BenchResult*>>> groups;
@@ -93,7 +102,7 @@ void plot_bench(const Bench& bench, const std::string& folder) {
       if (!along.empty() && by_along.size() > 1) stem += "_" + along.substr(0, along.find(' '));
       const fs::path file = fs::path(folder) / (stem + ".png");
       const std::string title = fmt::format("{}, {}", name, device);
-      draw(program, file, along.empty() ? bars(file, title, results) : lines(file, title, along, results));
+      draw(gnuplot, file, along.empty() ? bars(file, title, results) : lines(file, title, along, results));
     }
 }
 

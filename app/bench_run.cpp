@@ -27,6 +27,22 @@ std::string find_in_bench(const std::string& name, const std::string& folder) {
   return found == name ? find_input(name, folder == "scenes" ? "pipelines/scenes" : folder) : found;
 }
 
+Inputs inputs_of(const std::string& pipeline, const std::string& scene, const std::vector<std::string>& set) {
+  Inputs inputs;
+  inputs.pipeline = find_in_bench(pipeline, "pipelines");
+  inputs.scene = find_in_bench(scene, "scenes");
+  inputs.set = set;
+  return inputs;
+}
+
+void list_stages(Bench& bench, const std::string& name, const graph::Plan& plan, const std::vector<graph::Op>& ops) {
+  for (const graph::Op& op : ops)
+    if (const auto* run = std::get_if<graph::Run>(&op.what))
+      static_cast<void>(bench.wants(name + "/" + plan.stages[static_cast<std::size_t>(run->stage)].spec.name));
+    else if (const auto* repeat = std::get_if<graph::Repeat>(&op.what))
+      list_stages(bench, name, plan, repeat->body);
+}
+
 // Of all repeats: in the height field, passes of relaxation.
 std::uint64_t turns_of(const execution::Execution& execution) {
   std::uint64_t turns = 0;
@@ -81,10 +97,7 @@ void report(Bench& bench, const Running& running) {
 BenchRun::BenchRun(const std::string& pipeline, const std::string& scene, const std::vector<std::string>& set, gpu::Device& device_,
                    bool barriers_all, const std::function<void(Loaded&)>& change)
     : device(&device_) {
-  Inputs inputs;
-  inputs.pipeline = find_in_bench(pipeline, "pipelines");
-  inputs.scene = find_in_bench(scene, "scenes");
-  inputs.set = set;
+  const Inputs inputs = inputs_of(pipeline, scene, set);
   loaded = load(inputs, "");
   plan_for(loaded, inputs, profile_of(*device));
   if (change) change(loaded);
@@ -123,6 +136,10 @@ std::optional<std::string> why_not(const std::function<void()>& start) {
 void run_in_turn(Bench& bench, const std::vector<BenchCase>& cases, const BenchPace& pace, bool stages) {
   std::vector<Running> all;
   for (const BenchCase& one : cases) {
+    if (stages && bench.lists_below(one.name)) {
+      const graph::Plan plan = load(inputs_of(one.pipeline, one.scene, one.set), "").plan;
+      list_stages(bench, one.name, plan, plan.step);
+    }
     if (!bench.wants(one.name)) continue;
     Running running;
     running.what = &one;

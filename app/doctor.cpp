@@ -116,10 +116,11 @@ void add_doctor(CLI::App& program, Action& action) {
       }
       const Kept kept = kept_programs();
       if (*json) {
-        const nlohmann::json report = {{"version", version()},        {"devices", list},
-                                       {"used", as_json(info)},       {"speed", as_json(speed)},
-                                       {"remarks", remarks},          {"compiled_programs", as_json(kept)},
-                                       {"ffmpeg", on_path("ffmpeg")}, {"graphviz", on_path("dot")}};
+        const nlohmann::json report = {{"version", version()},         {"devices", list},
+                                       {"used", as_json(info)},        {"speed", as_json(speed)},
+                                       {"remarks", remarks},           {"compiled_programs", as_json(kept)},
+                                       {"ffmpeg", on_path("ffmpeg")},  {"graphviz", on_path("dot")},
+                                       {"gnuplot", on_path("gnuplot")}};
         fmt::print("{}\n", report.dump(2));
         return static_cast<int>(Status::done);
       }
@@ -136,8 +137,10 @@ void add_doctor(CLI::App& program, Action& action) {
       fmt::print("  multiply-adds of 32-bit floats      {}\n  from one launch to the next         {:.2f} us\n",
                  in_words(speed.multiply_add, "FLOP"), 1e6 * speed.launch);
       fmt::print("  compiled programs                   {}\n", in_words(kept));
-      fmt::print("\nprograms\n  ffmpeg    {}\n  Graphviz  {}\n", on_path("ffmpeg") ? "found" : "not found: no video, pictures only",
-                 on_path("dot") ? "found" : "not found: explain writes no svg");
+      fmt::print("\nprograms\n  ffmpeg    {}\n  Graphviz  {}\n  gnuplot   {}\n",
+                 on_path("ffmpeg") ? "found" : "not found: no video, pictures only",
+                 on_path("dot") ? "found" : "not found: explain writes no svg",
+                 on_path("gnuplot") ? "found" : "not found: bench draws no plots");
       fmt::print("\nremarks\n");
       if (remarks.empty()) fmt::print("  none: everything works here\n");
       for (const std::string& remark : remarks) fmt::print("  {}\n", remark);

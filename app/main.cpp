@@ -4,7 +4,10 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 
 #include "app/usage_errors.h"
@@ -41,6 +44,15 @@ int guarded(const firn::app::Action& action) {
     spdlog::error("{}", error.what());
     return Status::failed;
   }
+}
+
+// What was printed may still be on its way when a verb is done: a full disk tells only now.
+int printed(int status) {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+  const std::string reason = errno != 0 ? fmt::format(": {}", std::strerror(errno)) : "";
+  fmt::print(stderr, "error: the output is not complete, stdout cannot be written{}\n", reason);
+  return status == Status::done ? static_cast<int>(Status::failed) : status;
 }
 
 void set_up_log(bool verbose, bool quiet) {
@@ -85,11 +97,11 @@ int main(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& success) {
-    return program.exit(success);
+    return printed(program.exit(success));
   } catch (const CLI::ParseError& error) {
     fmt::print(stderr, "{}", firn::app::usage_error(program, error));
     return Status::bad_input;
   }
   set_up_log(verbose, quiet);
-  return guarded(action);
+  return printed(guarded(action));
 }

@@ -15,6 +15,12 @@ inline double quantile(std::vector<double> values, double q) {
   std::nth_element(values.begin(), values.begin() + at, values.end());
   return values[static_cast<std::size_t>(at)];
 }
-inline double median(const std::vector<double>& values) { return quantile(values, 0.5); }
+// The middle one; the mean of the two middle ones where their number is even; 0 of none.
+inline double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return values.size() % 2 == 1 ? *middle : (*std::max_element(values.begin(), middle) + *middle) / 2;
+}
 
 }  // namespace firn::app

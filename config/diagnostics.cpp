@@ -3,16 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <unordered_set>
 #include <utility>
 
 namespace firn::config {
 namespace {
 
+// What is found twice is told once: a --set for a stage that setup and step have, or a part that is included twice.
 std::string lines(const Diagnostics& diagnostics) {
   std::string text;
+  std::unordered_set<std::string> told;
   for (const Diagnostic& diagnostic : diagnostics.all()) {
+    const auto [line, is_new] = told.insert(to_string(diagnostic));
+    if (!is_new) continue;
     if (!text.empty()) text += '\n';
-    text += to_string(diagnostic);
+    text += *line;
   }
   return text;
 }

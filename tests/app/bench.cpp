@@ -1,6 +1,8 @@
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "app/statistics.h"
 #include "stages/process.h"
 #include "tests/app/inputs.h"
 #include "tests/catch.h"
@@ -90,10 +92,64 @@ TEST_CASE("planning takes no device, and its time grows with the stages, not wit
   if (plots) CHECK(read_file(folder / "plots/graph.png").starts_with("\x89PNG"));
 }
 
-TEST_CASE("a benchmark that is not there is named with the nearest", "[app]") {
-  const Outcome outcome = run_firn({"bench", "grap"});
-  CHECK(outcome.status == 2);
-  CHECK(outcome.err.find("no benchmark 'grap'; did you mean 'graph'") != std::string::npos);
+TEST_CASE("a benchmark that is not there is told before anything is done, with the nearest or its sizes", "[app]") {
+  const struct {
+    const char *name, *sizes, *fragment;
+  } table[] = {
+      {"grap", "full", "no benchmark 'grap'; did you mean 'graph'?"},
+      {"step/mpm_snw", "full", "no benchmark 'step/mpm_snw'; did you mean 'step/mpm_snow'?"},
+      {"step/mpm_snow/bx", "small", "did you mean 'step/mpm_snow/box'?"},
+      {"qqqqqqqqqqqqqqqqqqqqqqqqq", "small", "; valid: transfers, step, two_snowballs, heightfield, barriers, graph, "},
+      {"step/mpm_snow/box/400", "small", "no benchmark 'step/mpm_snow/box/400' with --sizes small: it is one of --sizes full"},
+      {"step/mpm_snow/box/200", "full", "no benchmark 'step/mpm_snow/box/200' with --sizes full: it is one of --sizes small"},
+      {"graph/10/more", "full", "no benchmark 'graph/10/more'; "},
+      {"heightfield/contour/256/1/heightfield.overlp", "small", "did you mean 'heightfield/contour/256/1/heightfield.overlap'?"},
+      {"heightfield/contour/256/1/nonsense", "small", "no benchmark 'heightfield/contour/256/1/nonsense'; "},
+      {"heightfield/contour/1024/1/heightfield.overlap", "small", "it is one of --sizes full"},
+  };
+  for (const auto& bad : table) {
+    const Folder folder;
+    const Outcome outcome = run_firn({"bench", bad.name, "--sizes", bad.sizes, "--plots", folder / "plots"});
+    INFO(bad.name << " " << outcome.err);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.out.empty());  // no device, no heading
+    CHECK(outcome.err.find(bad.fragment) != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder / "plots"));
+  }
+}
+
+TEST_CASE("one stage of a step is a benchmark", "[app]") {
+  CHECK(names_of(benched("heightfield/contour/256/1/heightfield.overlap").at("results"))
+            .contains("heightfield/contour/256/1/heightfield.overlap"));
+}
+
+TEST_CASE("plots that cannot be drawn are refused before anything is measured", "[app]") {
+  const Folder folder;
+  const auto refused = [&](const std::string& plots, const std::string& path, const std::string& fragment) {
+    const Outcome outcome = run_firn({"bench", "graph", "--plots", plots}, {{"PATH", path}});
+    INFO(outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.find(fragment) != std::string::npos);
+  };
+  refused(folder / "plots", folder / "nothing", "gnuplot is not installed");
+  CHECK_FALSE(std::filesystem::exists(folder / "plots"));
+  // Whatever is called gnuplot will do: it is not reached.
+  std::filesystem::create_symlink("/bin/true", folder / "gnuplot");
+  const std::string file = folder.write("file", "");
+  refused(file, folder / "", "cannot make the folder " + file);
+  refused(file + "/below", folder / "", "cannot make the folder " + file + "/below");
+  refused("/proc/x", folder / "", "cannot make the folder /proc/x");
+}
+
+TEST_CASE("the median of an even number of values lies between the middle two", "[app]") {
+  using firn::app::median;
+  CHECK(median({}) == 0);
+  CHECK(median({3}) == 3);
+  CHECK(median({4, 1}) == 2.5);
+  CHECK(median({9, 1, 5}) == 5);
+  CHECK(median({8, 1, 100, 4}) == 6);
+  CHECK(median({7, 7, 1, 7}) == 7);
 }
 
 TEST_CASE("doctor measures what the device can do", "[app]") {

@@ -3,6 +3,7 @@
 
 #include "tests/app/inputs.h"
 #include "tests/catch.h"
+#include "tests/small_disk.h"
 
 using firn::test::Folder;
 using firn::test::Outcome;
@@ -116,6 +117,14 @@ TEST_CASE("a --set that cannot be read brings no errors but its own", "[app]") {
   }
 }
 
+TEST_CASE("an error of a stage that setup and step both have is told once", "[app]") {
+  const Outcome outcome = firn::test::run_firn({"explain", "mpm_snow", "--set", "mpm.gather_velocities.form=textur"});
+  INFO(outcome.err);
+  CHECK(outcome.status == 2);
+  CHECK(outcome.err.find("did you mean 'texture'") != std::string::npos);
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+}
+
 TEST_CASE("every verb explains itself, and the version is told", "[app]") {
   for (const char* verb : {"run", "check", "list", "inspect", "try", "completion", "doctor", "test"}) {
     const Outcome help = firn::test::run_firn({verb, "--help"});
@@ -156,5 +165,29 @@ TEST_CASE("doctor tells devices and limits, also as JSON", "[app]") {
   REQUIRE(json.status == 0);
   const nlohmann::json report = nlohmann::json::parse(json.out);
   CHECK(report.at("devices").size() >= 1);
+  for (const char* program : {"ffmpeg", "graphviz", "gnuplot"}) CHECK(report.at(program).is_boolean());
+  CHECK(plain.out.find("\n  gnuplot   ") != std::string::npos);
   CHECK(report.at("used").at("limits").at("storage_block_bytes").get<std::int64_t>() >= (1 << 24));
+}
+
+TEST_CASE("output that cannot be written ends with status 1 and a sentence", "[app]") {
+  // Longer and shorter than what is kept until the end; by the verb, and before there is one.
+  for (const Words& words : {Words{"bench", "graph/10", "--runs", "1", "--json"},
+                             {"bench", "graph", "--runs", "1"},
+                             {"list"},
+                             {"list", "--json"},
+                             {"inspect", "mpm.sort"},
+                             {"schema", "pipeline"},
+                             {"completion", "bash"},
+                             {"--help"}}) {
+    CAPTURE(words);
+    Outcome outcome;
+    {
+      const firn::test::SmallDisk disk(160);
+      outcome = firn::test::run_firn(words);
+    }
+    CHECK(outcome.out.size() == 160);
+    CHECK(outcome.status == 1);
+    CHECK(outcome.err.find("stdout cannot be written") != std::string::npos);
+  }
 }

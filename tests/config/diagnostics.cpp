@@ -53,3 +53,11 @@ TEST_CASE("diagnostics can be appended, to themselves too") {
   CHECK(first.all()[1].text == "two");
   CHECK(first.all()[3].text == "two");
 }
+
+TEST_CASE("equal errors are told once, in the place of the first") {
+  Diagnostics diagnostics;
+  for (const char* text : {"wrong", "odd", "wrong"}) diagnostics.error({"--set a.b=1", 0, 0}, text);
+  diagnostics.error({"--set a.b=2", 0, 0}, "wrong");
+  CHECK(std::string(InputError(diagnostics).what()) ==
+        "--set a.b=1: error: wrong\n--set a.b=1: error: odd\n--set a.b=2: error: wrong");
+}
