@@ -181,7 +181,10 @@ json identity_of(const Loaded& loaded) {
   const graph::Plan& plan = loaded.plan;
   json sizes = json::object(), files = json::object();
   for (const auto& [name, size] : plan.environment.domains) sizes[name] = size.count;
-  for (const std::string& file : files_of(loaded.problem->scene)) files[file] = sha256_of(file);
+  // By their places beside the scene, wherever that is seen from.
+  const auto absolute = [](const std::string& file) { return std::filesystem::absolute(file).lexically_normal(); };
+  for (const std::string& file : files_of(loaded.problem->scene))
+    files[absolute(file).lexically_relative(absolute(loaded.scene_file).parent_path()).string()] = sha256_of(file);
   return {{"pipeline",
            {{"name", loaded.pipeline.name},
             {"stages", stages_json(plan)},

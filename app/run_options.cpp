@@ -13,12 +13,15 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-// Shipped files are found by their names; others where the run was started from.
-std::string found(const std::string& name, const std::string& folder, const std::string& started_in) {
+// As find_input() finds it, but from where the run was started: another file of that name may lie here.
+std::string found(const std::string& name, const std::string& started_in) {
   std::error_code error;  // a name that no file system takes is no file
-  if (name.empty() || fs::exists(find_input(name, folder), error)) return name;
-  const fs::path there = fs::path(started_in) / name;
-  return fs::exists(there, error) ? there.string() : name;
+  if (name.empty() || fs::equivalent(started_in, ".", error)) return name;
+  for (const char* ending : {"", ".yaml"}) {
+    const fs::path there = fs::path(started_in) / (name + ending);
+    if (fs::is_regular_file(there, error)) return there.string();
+  }
+  return name;
 }
 
 // json would turn -1 and 1e300 into some whole number or other.
@@ -57,8 +60,8 @@ RunOptions options_from(const json& values, const std::string& file) {
   try {
     Inputs& inputs = options.inputs;
     const std::string started_in = values.at("started_in");
-    inputs.pipeline = found(values.at("pipeline"), "pipelines", started_in);
-    inputs.scene = found(values.at("scene"), "pipelines/scenes", started_in);
+    inputs.pipeline = found(values.at("pipeline"), started_in);
+    inputs.scene = found(values.at("scene"), started_in);
     values.at("set").get_to(inputs.set);
     values.at("disable").get_to(inputs.disable);
     values.at("replace").get_to(inputs.replace);

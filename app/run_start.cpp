@@ -43,11 +43,22 @@ fs::path as_seen_from_here(const fs::path& absolute) {
   return relative.empty() || relative.begin()->string() == ".." ? absolute : relative;
 }
 
-// What the command line says goes before what is kept; changes of the scene, and exports, add up.
+// What the command line says goes before what is kept; changes of the scene and of stages, and exports, add up.
 void follow(const RunOptions& given, RunOptions& kept) {
+  const auto add = [&](std::vector<std::string> Inputs::*words) {
+    for (const std::string& word : given.inputs.*words)
+      if (std::ranges::find(kept.inputs.*words, word) == (kept.inputs.*words).end()) (kept.inputs.*words).push_back(word);
+  };
   kept.inputs.set.insert(kept.inputs.set.end(), given.inputs.set.begin(), given.inputs.set.end());
-  for (const std::string& wish : given.inputs.exports)
-    if (std::ranges::find(kept.inputs.exports, wish) == kept.inputs.exports.end()) kept.inputs.exports.push_back(wish);
+  add(&Inputs::disable);
+  add(&Inputs::replace);
+  add(&Inputs::exports);
+  const Inputs unsaid;
+  if (!given.inputs.pipeline.empty()) kept.inputs.pipeline = given.inputs.pipeline;
+  if (!given.inputs.scene.empty()) kept.inputs.scene = given.inputs.scene;
+  if (given.inputs.image != unsaid.image) kept.inputs.image = given.inputs.image;
+  if (given.inputs.repeats != unsaid.repeats) kept.inputs.repeats = given.inputs.repeats;
+  if (!given.inputs.share_memory) kept.inputs.share_memory = false;
   if (given.steps || given.frames) {
     kept.steps = given.steps;
     kept.frames = given.frames;
@@ -79,6 +90,14 @@ RunStart resumed(RunOptions given) {
         dump = dump.substr(0, sign + 1) + (fs::path(inputs.value("started_in", "")) / dump.substr(sign + 1)).string();
     follow(given, start.options);
   }
+  const graph::Clock& clock = start.checkpoint->clock;
+  const auto refuse_before = [&](const char* word, std::optional<std::uint64_t> end, std::uint64_t reached) {
+    if (end && *end < reached)
+      refuse(start.checkpoint->folder, fmt::format("is at {} {}, beyond --{} {}; earlier ones lie beside it, if they were kept",
+                                                   word, reached, fmt::format("{}s", word), *end));
+  };
+  refuse_before("step", given.steps, clock.step);
+  refuse_before("frame", given.frames, clock.frame);
   const fs::path own = run_of(*start.checkpoint);
   start.output = !given.output.empty() ? fs::path(given.output)
                  : !own.empty()        ? as_seen_from_here(own)

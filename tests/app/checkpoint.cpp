@@ -275,6 +275,44 @@ TEST_CASE("a scene's own file that has changed is named when a run is to go on",
   CHECK(outcome.err.find("drift.npy has changed") != std::string::npos);
 }
 
+TEST_CASE("a run whose scene names files goes on from any folder, on its own scene and not one of that name there", "[app]") {
+  const Folder folder;
+  std::string scene = small_field;
+  scene.replace(scene.find("depth: 0.4"), 10, "depth: {image: drift.npy, metres: 0.4}");
+  std::string header = "{'descr': '<f4', 'fortran_order': False, 'shape': (48, 48), }";
+  header.resize(117, ' ');
+  fs::create_directories(folder / "there");
+  fs::create_directories(folder / "here");
+  folder.write("there/drift.npy", std::string("\x93NUMPY\x01\x00\x76\x00", 10) + header + "\n" + std::string(48 * 48 * 4, '\0'));
+  folder.write("there/scene.yaml", scene);
+  folder.write("here/scene.yaml", small_scene);
+  const fs::path before = fs::current_path();
+  fs::current_path(folder / "there");
+  const Outcome first =
+      run_firn(run_without_pictures("heightfield_contour", "scene.yaml", "out", {"--steps", "4", "--checkpoint-every", "2"}));
+  fs::current_path(folder / "here");
+  const Outcome resumed = run_firn({"run", "--resume", "../there/out", "--steps", "6"});
+  const Outcome repeated = run_firn({"run", "--from", "../there/out"});
+  fs::current_path(before);
+  INFO(first.err << resumed.err << repeated.err << repeated.out);
+  CHECK(first.status == 0);
+  CHECK(resumed.status == 0);
+  CHECK(repeated.status == 0);
+}
+
+TEST_CASE("a run does not go on to an end before its checkpoint", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("scene.yaml", small_scene), out = folder / "out";
+  succeed(run_without_pictures("mpm_snow", scene, out, {"--steps", "6", "--checkpoint-every", "4"}));
+  const std::string metrics = read_file(folder / "out/metrics.csv");
+  const Outcome outcome = run_firn({"run", "--resume", out, "--steps", "3"});
+  INFO(outcome.err);
+  CHECK(outcome.status == 2);
+  CHECK(outcome.err.find("is at step 4, beyond --steps 3") != std::string::npos);
+  CHECK(read_file(folder / "out/metrics.csv") == metrics);
+  CHECK(run_firn({"run", "--resume", out, "--frames", "0"}).status == 2);
+}
+
 TEST_CASE("where there is no checkpoint, --resume says so", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("scene.yaml", small_scene);

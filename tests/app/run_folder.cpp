@@ -196,6 +196,16 @@ TEST_CASE("a run is repeated from its manifest, and what is not the same is name
   CHECK(changed.err.find("scene.snow.0.velocity.1 is -4, was -3") != std::string::npos);
   const bool kept = read_file(folder / "position.npy") == read_file(folder / "out-repeat/position.npy");
   CHECK(kept);
+  // Words of the command line go before those of the manifest.
+  const Outcome words = run_firn({"run", "--from", folder / "out", "--out", folder / "words", "--image", "32x24", "--disable",
+                                  "io.video", "--scene", folder.write("third.yaml", small_scene), "--no-alias"});
+  INFO(words.err);
+  const json said = manifest_in(folder / "words").at("inputs");
+  CHECK(said.at("image") == "32x24");
+  CHECK(said.at("disable") == json{"io.video"});
+  CHECK(said.at("scene") == folder / "third.yaml");
+  CHECK(said.at("share_memory") == false);
+  CHECK(run_firn({"run", "--from", folder / "out", "--scene", folder / "none.yaml"}).status == 2);
   CHECK(run_firn({"run", "--from", scene}).status == 2);
   CHECK(run_firn({"run", "--from", folder / "nowhere"}).status == 2);
 }
