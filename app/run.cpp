@@ -249,6 +249,8 @@ int run(const RunOptions& given) {
   }
   watch_signals();
   RunLog log(folder->path());
+  for (const config::Diagnostic& warning : loaded.diagnostics.all())  // told before there was a log
+    log.event("message", {{"level", "warning"}, {"text", config::to_string(warning)}});
   Session session(start, loaded, dumps, device->info(), identity, folder->path(), log, execution);
   const Status status = session.run(left_out);
   if (status != Status::done || start.repeated.is_null()) return status;

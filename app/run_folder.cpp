@@ -5,6 +5,8 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -48,10 +50,18 @@ std::optional<std::uint64_t> number_of_frame(const std::string& name) {
   return number;
 }
 
+constexpr std::array written_by_runs{run_manifest,  "manifest.json.part", "log.jsonl",  "metrics.csv",
+                                     "video.mp4",   "video.part.mp4",     "ffmpeg.log", "encoders.txt",
+                                     "video.parts", "checkpoints",        "export"};
+
+// Of an earlier run, or of anybody's: what a run would write over.
+bool holds_such(const fs::path& folder) {
+  return fs::exists(folder / "frames") ||
+         std::ranges::any_of(written_by_runs, [&](const char* name) { return fs::exists(fs::symlink_status(folder / name)); });
+}
+
 void remove_run(const fs::path& run) {
-  for (const char* name : {run_manifest, "manifest.json.part", "log.jsonl", "metrics.csv", "video.mp4", "video.part.mp4",
-                           "ffmpeg.log", "encoders.txt", "video.parts", "checkpoints", "export"})
-    fs::remove_all(run / name);
+  for (const char* name : written_by_runs) fs::remove_all(run / name);
   remove_frames_from(run, 0);
 }
 
@@ -66,7 +76,9 @@ fs::path free_name(const fs::path& path) {
 
 fs::path move_away(const fs::path& run) {
   if (fs::equivalent(run, fs::current_path()))
-    refuse(run, "this is the working folder and holds an earlier run; --force replaces that, --out names another folder");
+    refuse(run,
+           "this is the working folder and holds an earlier run, or files with names of a run's; --force replaces these, --out "
+           "names another folder");
   const fs::path whole = fs::absolute(run / "").lexically_normal().parent_path();
   const fs::path name = free_name(whole);
   std::error_code error;
@@ -82,7 +94,7 @@ fs::path move_away(const fs::path& run) {
 
 RunFolder::RunFolder(const fs::path& path, Claim claim) : path_((path / "").parent_path()) {
   try {
-    if (claim != Claim::resume && fs::exists(path_ / run_manifest)) {
+    if (claim == Claim::fresh ? holds_such(path_) : claim == Claim::replace && fs::exists(path_ / run_manifest)) {
       const int in_use = lock(path_, 0);
       if (in_use >= 0) close(in_use);
       if (claim == Claim::fresh)

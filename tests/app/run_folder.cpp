@@ -66,6 +66,36 @@ TEST_CASE("an earlier run in the folder moves away, and is replaced with --force
   CHECK_FALSE(fs::exists(folder / "out/frames/frame_0007.png"));
 }
 
+TEST_CASE("files of one's own with names of a run's are not written over, with a manifest beside them or without", "[app]") {
+  const Folder folder;
+  const std::string scene = folder.write("scene.yaml", small_scene);
+  fs::create_directories(folder / "out/export");
+  folder.write("out/metrics.csv", "mine");
+  folder.write("out/export/particles_0000.ply", "mine");
+  fs::create_directories(folder / "notes");
+  folder.write("notes/todo.txt", "mine");
+  for (const char* out : {"out", "notes"})
+    REQUIRE(run_firn(run_without_pictures("mpm_snow", scene, folder / out, {"--steps", "1", "--export", "particles:ply"})).status ==
+            0);
+  CHECK(read_file(folder / "out-1/metrics.csv") == "mine");
+  CHECK(read_file(folder / "out-1/export/particles_0000.ply") == "mine");
+  CHECK(fs::exists(folder / "notes/manifest.json"));
+  CHECK(fs::exists(folder / "notes/todo.txt"));
+}
+
+TEST_CASE("what is wrong with a mesh stands in the log of the run, too", "[app]") {
+  const Folder folder;
+  folder.write("open.obj", "v 0.5 0.5 0.5\nv 1.5 0.5 0.5\nv 0.5 1.5 0.5\nv 0.5 0.5 1.5\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
+  const std::string scene = folder.write("scene.yaml",
+                                         "firn: 1\ndomain: {min: [0, 0, 0], max: [2, 2, 2], cell: 0.1}\n"
+                                         "snow: [{mesh: {file: open.obj}, material: packed}]\n");
+  const Outcome outcome = run_firn(run_without_pictures("mpm_snow", scene, folder / "out", {"--steps", "1"}));
+  INFO(outcome.err);
+  REQUIRE(outcome.status == 0);
+  REQUIRE(outcome.err.find("open edges") != std::string::npos);
+  CHECK(read_file(folder / "out/log.jsonl").find("open edges") != std::string::npos);
+}
+
 TEST_CASE("two runs do not write to one folder at a time", "[app]") {
   const Folder folder;
   const std::string scene = folder.write("scene.yaml", small_scene);
