@@ -139,7 +139,7 @@ Profile run_profile(const Loaded& loaded, gpu::Device& device, const ProfileRequ
   run.steps(request.warm_up, false);
   // With and without in turn, in short blocks, so that what else the machine does weighs on both alike; every second time the other
   // way round.
-  const std::uint64_t block = std::clamp<std::uint64_t>(request.steps / 20, 1, 10);
+  const std::uint64_t block = request.cost ? std::clamp<std::uint64_t>(request.steps / 20, 1, 10) : 10;
   std::vector<double> ratios;
   double wall = 0;
   for (std::uint64_t done = 0; done < request.steps;) {

@@ -106,8 +106,7 @@ struct Execution::Parts {
   [[nodiscard]] StageBlocks blocks(std::size_t stage) const { return {parameters[stage], clock_block, faults}; }
 
   void time_passes(bool on) {
-    if (on && !timing)
-      device.finish();  // so that no pass waits for earlier work, and the ring's start is not later than the clock's
+    if (on && !timing) device.finish();  // so that no pass waits for earlier work, nor the ring's start is later than the clock's
     timing = on;
     if (!on || timers || device.info().software) return;
     timers = std::make_unique<gpu::TimerRing>(4096);
@@ -191,7 +190,8 @@ void Execution::Parts::work(const graph::Run& run, std::uint64_t turn) {
   const PlannedStage& stage = plan.stages[s];
   if (turn % static_cast<std::uint64_t>(stage.every) != 0) return;
   device.label(stage.label.c_str());
-  if (std::holds_alternative<graph::HostWork>(stage.spec.work[static_cast<std::size_t>(run.work)])) {
+  const graph::Work& work = stage.spec.work[static_cast<std::size_t>(run.work)];
+  if (std::holds_alternative<graph::HostWork>(work)) {
     const double before = clock.dt, start = now();
     PlanContext context(stage, plan, memory, sizes, clock);
     host[s]->run(context);
@@ -202,8 +202,7 @@ void Execution::Parts::work(const graph::Run& run, std::uint64_t turn) {
   const Kernel& kernel = kernels[s][static_cast<std::size_t>(run.work)];
   if (kernel.idle) return;
   if (counted) note_groups(run);
-  // A software renderer's timestamps say nothing of draws, which it does later, nor of what comes between: there the processor's
-  // clock.
+  // A software renderer's timestamps say nothing of draws, which it does later, nor of what comes between: there it is the clock.
   const bool by_clock = timing && !timers;
   const double start = timing ? now() : 0;
   if (timing && timers) timers->begin(tag_of(run));
@@ -211,7 +210,7 @@ void Execution::Parts::work(const graph::Run& run, std::uint64_t turn) {
   if (timing && timers) timers->end();
   if (by_clock) {
     // Draws are only noted down by their call; a dispatch is over when its call returns.
-    if (std::holds_alternative<graph::Draw>(stage.spec.work[static_cast<std::size_t>(run.work)])) device.finish();
+    if (std::holds_alternative<graph::Draw>(work)) device.finish();
     clock_times.push_back({run.stage, run.work, clock.step, start, now() - start});
   }
   if (options.barriers_all) gpu::memory_barrier_all();

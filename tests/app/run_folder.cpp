@@ -73,14 +73,14 @@ TEST_CASE("files of one's own with names of a run's are not written over, with a
   folder.write("out/metrics.csv", "mine");
   folder.write("out/export/particles_0000.ply", "mine");
   fs::create_directories(folder / "notes");
-  folder.write("notes/todo.txt", "mine");
+  folder.write("notes/list.txt", "mine");
   for (const char* out : {"out", "notes"})
     REQUIRE(run_firn(run_without_pictures("mpm_snow", scene, folder / out, {"--steps", "1", "--export", "particles:ply"})).status ==
             0);
   CHECK(read_file(folder / "out-1/metrics.csv") == "mine");
   CHECK(read_file(folder / "out-1/export/particles_0000.ply") == "mine");
   CHECK(fs::exists(folder / "notes/manifest.json"));
-  CHECK(fs::exists(folder / "notes/todo.txt"));
+  CHECK(fs::exists(folder / "notes/list.txt"));
 }
 
 TEST_CASE("what is wrong with a mesh stands in the log of the run, too", "[app]") {
