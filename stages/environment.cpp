@@ -198,15 +198,19 @@ std::shared_ptr<const Problem> make_problem(scene::Scene scene, Image image, std
       Problem{std::move(scene), std::move(particles), std::move(meshes), image, std::move(output)});
 }
 
+bool facets_are_swept(const scene::Body& body) {
+  return std::holds_alternative<scene::Mesh>(body.shape) ||
+         (std::holds_alternative<scene::Box>(body.shape) && scene::may_turn(body));
+}
+
 FacetCounts facet_counts(const Problem& problem) {
   FacetCounts counts;
-  const auto add = [&](std::size_t facets, bool swept) {
+  for (std::size_t b = 0; b < problem.scene.bodies.size(); ++b) {
+    const scene::Body& body = problem.scene.bodies[b];
+    const std::size_t facets = std::holds_alternative<scene::Box>(body.shape) ? 12 : problem.meshes[b].triangles.size();
     counts.all += facets;
-    if (swept) counts.swept += facets;
-  };
-  for (const scene::Body& body : problem.scene.bodies)
-    if (std::holds_alternative<scene::Box>(body.shape)) add(12, scene::may_turn(body));
-  for (const scene::TriangleMesh& mesh : problem.meshes) add(mesh.triangles.size(), true);
+    if (facets_are_swept(body)) counts.swept += facets;
+  }
   return counts;
 }
 

@@ -26,8 +26,10 @@ struct Problem {
 // Throws config::InputError where files of the scene cannot be read.
 std::shared_ptr<const Problem> make_problem(scene::Scene scene, Image image, std::string output);
 
-// Triangles of all boxes and meshes among the bodies, in their order; `swept`: of those the triangles of meshes and of boxes that
-// may turn.
+// Whether a body's triangles are swept one by one: those of meshes, and of boxes that may turn.
+bool facets_are_swept(const scene::Body& body);
+
+// Triangles of all boxes and meshes among the bodies, and how many of them are swept.
 struct FacetCounts {
   std::size_t all = 0, swept = 0;
 };

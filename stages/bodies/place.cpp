@@ -63,7 +63,7 @@ Placed placed(const scene::Body& body, const scene::TriangleMesh& triangles) {
     result.moments = moments();
   } else if (const auto* block = std::get_if<scene::Box>(&body.shape)) {
     result.kind = box;
-    result.size << block->half_size, scene::may_turn(body) ? 1.0 : 0.0;
+    result.size << block->half_size, facets_are_swept(body) ? 1.0 : 0.0;
     result.offset = block->center;
     result.moments = moments();
     result.corners = box_corners(block->half_size);
@@ -129,7 +129,7 @@ class Placing final : public graph::HostStage {
         put_pose(key.position, key.orientation, path_position, path_orientation);
       }
       for (const Vector3d& corner : own.corners) put(facet_points, corner);
-      const bool swept = own.kind == mesh || scene::may_turn(body);
+      const bool swept = facets_are_swept(body);
       for (std::size_t facet = 0; facet < own.corners.size() / 3; ++facet) {
         if (swept) swept_facets.push_back(static_cast<std::int32_t>(facet_body.size()));
         facet_body.push_back(static_cast<std::int32_t>(b));
