@@ -171,7 +171,7 @@ TEST_CASE("the underside of a moving body is the lowest of all places on its way
   firn::reference::Random random(seed());
   const char* shapes[] = {"sphere: {radius: 0.4}", "box: {size: [0.8, 0.5, 0.6]}",
                           "capsule: {from: [-0.4, 0, 0], to: [0.4, 0, 0], radius: 0.25}"};
-  for (const int kind : {0, 1, 2, 1, 1, 1}) {  // a box takes six different parallelograms
+  for (int kind = 0; kind < 3; ++kind) {
     CAPTURE(shapes[kind]);
     const Vector3d from(2, 1.2, 2), velocity(random.uniform(10, 20), random.uniform(-3, 3), random.uniform(-8, 8));
     const Quaterniond turn = random.orientation().normalized();
