@@ -196,8 +196,8 @@ TEST_CASE("the underside of a moving body is the lowest of all places on its way
     for (int z = 0; z < 60; z += 3)
       for (int x = 0; x < 80; x += 3) {
         double expected = none;
-        for (int i = 0; i <= 200; ++i) {
-          s.position = from + velocity * 0.1 * i / 200;
+        for (int i = 0; i <= 2000; ++i) {
+          s.position = from + velocity * 0.1 * i / 2000;
           const Vector2d at((x + 0.5) * 0.1, (z + 0.5) * 0.1);
           expected = std::min(expected, lowest(s, at));
         }
